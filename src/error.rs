@@ -1,0 +1,132 @@
+//! The one error of the program. Every variant says what went wrong, where, and the way out.
+
+use std::path::{Path, PathBuf};
+
+/// What every fallible function of the library returns.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Everything that can go wrong, worded for the person at the keyboard.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A file or folder could not be read or written.
+    #[error("{}: cannot {action}: {source}", path.display())]
+    Io {
+        /// What was being done: `read`, `write`, …
+        action: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// An input file is not what the loader can use.
+    #[error("{}{}: {what}\n  {help}", path.display(), line.map(|l| format!(":{l}")).unwrap_or_default())]
+    Input {
+        /// The input file.
+        path: PathBuf,
+        /// Line in the file, from 1, where one can be named.
+        line: Option<u64>,
+        /// What is wrong.
+        what: String,
+        /// What the user can do.
+        help: String,
+    },
+    /// A session file cannot be used.
+    #[error("{}{}: {what}\n  {help}", path.display(), line.map(|l| format!(":{l}")).unwrap_or_default())]
+    Session {
+        /// The session file.
+        path: PathBuf,
+        /// Line in the file, from 1, where one can be named.
+        line: Option<usize>,
+        /// What is wrong, naming the key.
+        what: String,
+        /// What the user can do.
+        help: String,
+    },
+    /// A method, parameter, column or other name or value given by the user does not fit.
+    #[error("{what}\n  {help}")]
+    Usage {
+        /// What does not fit.
+        what: String,
+        /// What would fit.
+        help: String,
+    },
+    /// An output would overwrite a file.
+    #[error("{}: already exists, nothing was written\n  give another name, or --force to overwrite it", .0.display())]
+    Exists(PathBuf),
+    /// An output would overwrite the input.
+    #[error("{}: this is the input, which is never overwritten\n  give the output another name", .0.display())]
+    IsInput(PathBuf),
+    /// The input is not the one the session was made with.
+    #[error("{}: the data are not those of the session: {what}\n  restore the file, or go on with --accept-changed-data", path.display())]
+    Changed {
+        /// The input file.
+        path: PathBuf,
+        /// The first difference that can be seen.
+        what: String,
+    },
+    /// Work was abandoned because nobody waits for it any more.
+    #[error("the work was stopped before it ended\n  run it again")]
+    Stopped,
+}
+
+impl Error {
+    /// An [`Error::Io`] for `path`.
+    pub fn io(action: &'static str, path: impl AsRef<Path>) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.as_ref().to_path_buf();
+        move |source| Self::Io { action, path, source }
+    }
+
+    /// An [`Error::Usage`].
+    pub fn usage(what: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Usage { what: what.into(), help: help.into() }
+    }
+
+    /// An [`Error::Input`] without a line.
+    pub fn input(path: impl AsRef<Path>, what: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Input { path: path.as_ref().to_path_buf(), line: None, what: what.into(), help: help.into() }
+    }
+}
+
+impl From<crate::stop::Stopped> for Error {
+    fn from(_: crate::stop::Stopped) -> Self {
+        Self::Stopped
+    }
+}
+
+/// `did you mean`: the candidate closest to `name`, when one is close enough to be a slip of the finger.
+#[must_use]
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let limit = 1 + name.chars().count() / 3;
+    candidates
+        .into_iter()
+        .map(|c| (edit_distance(name, c), c))
+        .filter(|(d, _)| *d <= limit)
+        .min_by_key(|(d, _)| *d)
+        .map(|(_, c)| c)
+}
+
+fn edit_distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let cost = diagonal + usize::from(ca != *cb);
+            diagonal = row[j + 1];
+            row[j + 1] = cost.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nearest_finds_a_slip_and_refuses_a_stranger() {
+        assert_eq!(nearest("hample", ["hampel", "two-sided"]), Some("hampel"));
+        assert_eq!(nearest("zzz", ["hampel", "two-sided"]), None);
+    }
+}

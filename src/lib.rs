@@ -1,0 +1,10 @@
+//! wildpoint: finding, reviewing and repairing wild points of tracking records.
+//!
+//! The modules are layers: each imports only from those listed before it (`tests/layers.rs` holds them to that).
+
+pub mod error;
+pub mod math;
+pub mod method;
+pub mod param;
+pub mod stop;
+pub mod track;

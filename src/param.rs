@@ -1,0 +1,289 @@
+//! A method's knobs, declared once.
+//!
+//! A [`Param`] is a row of plain data: key, help, unit, kind, default, paper value and when it matters. The panel,
+//! `--set`, the session file, validation, `wildpoint methods`, the README table and the contract tests are all
+//! derived from it. [`Settings`] is one value for each parameter of a list, always valid.
+
+use crate::error::{Error, Result, nearest};
+
+mod settings;
+mod value;
+
+pub use settings::Settings;
+pub use value::{Choice, Value};
+
+/// One knob.
+#[derive(Debug, Clone, Copy)]
+pub struct Param {
+    /// The key of `--set`, the session file and the palette.
+    pub key: &'static str,
+    /// One line for the panel and `wildpoint methods`.
+    pub help: &'static str,
+    /// Unit of the value; empty for a plain number.
+    pub unit: &'static str,
+    /// Which values are legal and how far a step goes.
+    pub kind: Kind,
+    /// The value that works on real tracks.
+    pub default: Value,
+    /// What the source document prescribes, where that is something else.
+    pub paper: Option<Value>,
+    /// False when the value cannot change the result under the other settings: the panel hides it then.
+    pub matters: fn(&Settings) -> bool,
+}
+
+/// The legal values of a parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kind {
+    /// A whole number from `min` to `max`.
+    Whole {
+        /// Smallest legal value.
+        min: i64,
+        /// Largest legal value.
+        max: i64,
+        /// How far one step of the panel goes.
+        step: i64,
+    },
+    /// A finite number from `min` to `max`.
+    Real {
+        /// Smallest legal value.
+        min: f64,
+        /// Largest legal value.
+        max: f64,
+        /// How far one step of the panel goes.
+        step: Step,
+    },
+    /// One of a few words.
+    Choice(&'static [&'static str]),
+    /// Yes or no.
+    Switch,
+    /// One of a few words, or a number above `min`, in the channel's units.
+    RealOr {
+        /// The words, the default one first.
+        words: &'static [&'static str],
+        /// The number is at least this …
+        min: f64,
+        /// … and at most this.
+        max: f64,
+    },
+    /// `off`, or a whole number.
+    WholeOrOff {
+        /// Smallest legal number.
+        min: i64,
+        /// Largest legal number.
+        max: i64,
+    },
+}
+
+/// How far one step of the panel goes on a real scale.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Step {
+    /// Adds this.
+    Add(f64),
+    /// Multiplies by this.
+    Times(f64),
+}
+
+/// [`Param::matters`] of a parameter that always matters.
+#[must_use]
+pub fn always(_: &Settings) -> bool {
+    true
+}
+
+impl Param {
+    /// The same parameter with another default.
+    #[must_use]
+    pub const fn with_default(mut self, default: Value) -> Self {
+        self.default = default;
+        self
+    }
+
+    /// The same parameter with another paper value.
+    #[must_use]
+    pub const fn with_paper(mut self, paper: Option<Value>) -> Self {
+        self.paper = paper;
+        self
+    }
+
+    /// The same parameter with another rule for when it matters.
+    #[must_use]
+    pub const fn with_matters(mut self, matters: fn(&Settings) -> bool) -> Self {
+        self.matters = matters;
+        self
+    }
+
+    /// The legal values, in words: `3 .. 1001`, `mad | rms`.
+    #[must_use]
+    pub fn range(&self) -> String {
+        match self.kind {
+            Kind::Whole { min, max, .. } => format!("{min} .. {max}"),
+            Kind::Real { min, max, .. } => format!("{min} .. {max}"),
+            Kind::Choice(words) => words.join(" | "),
+            Kind::Switch => "true | false".into(),
+            Kind::RealOr { words, min, .. } => format!("{} | a number from {min}", words.join(" | ")),
+            Kind::WholeOrOff { min, max } => format!("off | {min} .. {max}"),
+        }
+    }
+
+    /// Reads a value as the user typed it.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] naming the key, the text and the legal values.
+    pub fn parse(&self, text: &str) -> Result<Value> {
+        let text = text.trim();
+        let read = match self.kind {
+            Kind::Whole { .. } => text.parse().ok().map(Value::Whole),
+            Kind::Real { .. } => text.parse().ok().map(Value::Real),
+            Kind::Choice(words) => word(words, text),
+            Kind::Switch => match text {
+                "true" | "yes" | "on" => Some(Value::Switch(true)),
+                "false" | "no" | "off" => Some(Value::Switch(false)),
+                _ => None,
+            },
+            Kind::RealOr { words, .. } => word(words, text).or_else(|| text.parse().ok().map(Value::Real)),
+            Kind::WholeOrOff { .. } => word(&["off"], text).or_else(|| text.parse().ok().map(Value::Whole)),
+        };
+        read.filter(|v| self.accepts(*v)).ok_or_else(|| self.refuse(text))
+    }
+
+    /// Takes a value of any spelling that means a legal one (a whole number for a real one, say).
+    ///
+    /// # Errors
+    /// [`Error::Usage`] naming the key, the value and the legal values.
+    pub fn accept(&self, value: Value) -> Result<Value> {
+        #[expect(clippy::cast_precision_loss, reason = "settings typed by a person are far below 2^53")]
+        let value = match (self.kind, value) {
+            (Kind::Real { .. } | Kind::RealOr { .. }, Value::Whole(n)) => Value::Real(n as f64),
+            (_, other) => other,
+        };
+        if self.accepts(value) { Ok(value) } else { Err(self.refuse(&value.to_string())) }
+    }
+
+    /// True when the value is of the right kind and in range.
+    #[must_use]
+    pub fn accepts(&self, value: Value) -> bool {
+        match (self.kind, value) {
+            (Kind::Whole { min, max, .. } | Kind::WholeOrOff { min, max }, Value::Whole(n)) => (min..=max).contains(&n),
+            (Kind::Real { min, max, .. } | Kind::RealOr { min, max, .. }, Value::Real(x)) => (min..=max).contains(&x),
+            (Kind::Choice(words) | Kind::RealOr { words, .. }, Value::Word(w)) => words.contains(&w),
+            (Kind::WholeOrOff { .. }, Value::Word(w)) => w == "off",
+            (Kind::Switch, Value::Switch(_)) => true,
+            _ => false,
+        }
+    }
+
+    fn refuse(&self, text: &str) -> Error {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" ({})", self.unit) };
+        Error::usage(
+            format!("{} = {text}: not a legal value", self.key),
+            format!("{} takes {}{unit}: {}", self.key, self.range(), self.help),
+        )
+    }
+
+    /// The value `steps` steps of the panel away, stopped at the ends of the range.
+    ///
+    /// A number of a word-or-number parameter moves by a twentieth of a decade; words are walked one by one.
+    #[must_use]
+    pub fn step(&self, value: Value, steps: i64) -> Value {
+        match (self.kind, value) {
+            (Kind::Whole { min, max, step }, Value::Whole(n)) => {
+                Value::Whole(n.saturating_add(step.saturating_mul(steps)).clamp(min, max))
+            }
+            (Kind::Real { min, max, step }, Value::Real(x)) => Value::Real(step.from(x, steps).clamp(min, max)),
+            (Kind::RealOr { min, max, .. }, Value::Real(x)) => {
+                Value::Real(Step::Times(1.122).from(x, steps).clamp(min.max(f64::MIN_POSITIVE), max))
+            }
+            (Kind::Choice(words) | Kind::RealOr { words, .. }, Value::Word(w)) => {
+                let at = words.iter().position(|x| *x == w).unwrap_or(0);
+                let last = words.len().saturating_sub(1);
+                let to = at.saturating_add_signed(isize::try_from(steps).unwrap_or(0)).min(last);
+                Value::Word(words.get(to).copied().unwrap_or(w))
+            }
+            (Kind::Switch, Value::Switch(_)) => Value::Switch(steps > 0),
+            (Kind::WholeOrOff { min, max }, Value::Whole(n)) => {
+                let to = n.saturating_add(steps);
+                if to > max { Value::Word("off") } else { Value::Whole(to.max(min)) }
+            }
+            (Kind::WholeOrOff { max, .. }, Value::Word(_)) if steps < 0 => Value::Whole(max),
+            (_, other) => other,
+        }
+    }
+}
+
+impl Step {
+    /// `x` moved by `steps`, on the grid of the step so that ten steps up and ten down end where they began.
+    fn from(self, x: f64, steps: i64) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "steps are keystrokes")]
+        let steps = steps as f64;
+        match self {
+            Self::Add(step) => ((x / step).round() + steps) / (1.0 / step),
+            Self::Times(factor) => {
+                let to = x * factor.powf(steps);
+                // Three significant digits keep the value readable in the panel and in the session.
+                format!("{to:.2e}").parse().unwrap_or(to)
+            }
+        }
+    }
+}
+
+fn word(words: &'static [&'static str], text: &str) -> Option<Value> {
+    words.iter().find(|w| **w == text).map(|w| Value::Word(w))
+}
+
+/// The parameter of a list that has this key.
+///
+/// # Errors
+/// [`Error::Usage`] with the keys there are and the nearest one.
+pub fn find(params: &'static [Param], owner: &str, key: &str) -> Result<&'static Param> {
+    params.iter().find(|p| p.key == key).ok_or_else(|| {
+        let hint = nearest(key, params.iter().map(|p| p.key)).map_or(String::new(), |k| format!("did you mean {k}? "));
+        let keys: Vec<&str> = params.iter().map(|p| p.key).collect();
+        Error::usage(
+            format!("{key}: {owner} has no such parameter"),
+            format!("{hint}its parameters are: {}", keys.join(", ")),
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const K: Param = Param {
+        key: "k",
+        help: "tolerance",
+        unit: "scales",
+        kind: Kind::Real { min: 0.5, max: 100.0, step: Step::Add(0.1) },
+        default: Value::Real(3.0),
+        paper: None,
+        matters: always,
+    };
+
+    #[test]
+    fn ten_steps_up_and_ten_down_end_where_they_began() {
+        let mut v = K.default;
+        for _ in 0..10 {
+            v = K.step(v, 1);
+        }
+        assert_eq!(v, Value::Real(4.0));
+        for _ in 0..10 {
+            v = K.step(v, -1);
+        }
+        assert_eq!(v, Value::Real(3.0));
+    }
+
+    #[test]
+    fn a_value_out_of_range_names_the_key_and_the_range() {
+        let message = K.parse("0.1").unwrap_err().to_string();
+        assert!(message.contains("k = 0.1") && message.contains("0.5 .. 100"), "{message}");
+        assert!(K.parse("nan").is_err());
+        assert!(K.accept(Value::Whole(4)).is_ok_and(|v| v == Value::Real(4.0)));
+    }
+
+    #[test]
+    fn off_lies_above_the_largest_number() {
+        let gap = Param { kind: Kind::WholeOrOff { min: 0, max: 5 }, default: Value::Whole(5), ..K };
+        assert_eq!(gap.step(Value::Whole(5), 1), Value::Word("off"));
+        assert_eq!(gap.step(Value::Word("off"), -1), Value::Whole(5));
+        assert_eq!(gap.parse("off").unwrap(), Value::Word("off"));
+    }
+}

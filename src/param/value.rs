@@ -1,0 +1,37 @@
+//! The value of one parameter.
+
+use std::fmt;
+
+/// The value of one parameter. Prints in the form that `--set` and the session file read back.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value {
+    /// A whole number.
+    Whole(i64),
+    /// A finite number.
+    Real(f64),
+    /// One of the words of the parameter.
+    Word(&'static str),
+    /// Yes or no.
+    Switch(bool),
+}
+
+/// The value of a parameter that is either a word or a number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Choice {
+    /// One of the words.
+    Word(&'static str),
+    /// The number.
+    Number(f64),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Whole(n) => write!(f, "{n}"),
+            // `{:?}` is the shortest text that reads back as the same double, always with a point or an exponent.
+            Self::Real(x) => write!(f, "{x:?}"),
+            Self::Word(w) => f.write_str(w),
+            Self::Switch(b) => write!(f, "{b}"),
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Is this work still wanted?
+//!
+//! Long computations ask [`Stop::check`] every few thousand samples and return [`Stopped`] when a newer
+//! request has taken their place, so that no result is computed that nobody waits for.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The work was abandoned.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stopped;
+
+/// Asked by a computation whether anybody still waits for it.
+#[derive(Debug, Clone, Default)]
+pub struct Stop(Option<(Arc<AtomicU64>, u64)>);
+
+impl Stop {
+    /// How many samples a loop may handle between two calls of [`Stop::check`]: well under a millisecond of work.
+    pub const STRIDE: usize = 4096;
+
+    /// Work that runs to its end.
+    #[must_use]
+    pub fn never() -> Self {
+        Self(None)
+    }
+
+    /// Work of `generation`, wanted for as long as `newest` holds that number.
+    #[must_use]
+    pub fn when_superseded(newest: Arc<AtomicU64>, generation: u64) -> Self {
+        Self(Some((newest, generation)))
+    }
+
+    /// True when the work is no longer wanted.
+    #[must_use]
+    pub fn requested(&self) -> bool {
+        self.0.as_ref().is_some_and(|(newest, mine)| newest.load(Ordering::Relaxed) != *mine)
+    }
+
+    /// An error when the work is no longer wanted.
+    ///
+    /// # Errors
+    /// [`Stopped`] when it is not.
+    pub fn check(&self) -> Result<(), Stopped> {
+        if self.requested() { Err(Stopped) } else { Ok(()) }
+    }
+
+    /// [`Stop::check`] at every [`Stop::STRIDE`]-th index.
+    ///
+    /// # Errors
+    /// [`Stopped`] when the work is no longer wanted.
+    #[inline]
+    pub fn check_at(&self, index: usize) -> Result<(), Stopped> {
+        if index.is_multiple_of(Self::STRIDE) { self.check() } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_newer_generation_stops_the_older_one() {
+        let newest = Arc::new(AtomicU64::new(3));
+        let stop = Stop::when_superseded(Arc::clone(&newest), 3);
+        assert_eq!(stop.check(), Ok(()));
+        newest.store(4, Ordering::Relaxed);
+        assert_eq!(stop.check(), Err(Stopped));
+        assert_eq!(Stop::never().check(), Ok(()));
+    }
+}

@@ -1,0 +1,218 @@
+//! A tracking record: times, channels, and what the loader understood of the file they came from.
+//!
+//! A [`Track`] keeps numbers only. Text of the file (a time as it was written, a cell byte for byte) is read again
+//! from the [`Source`] when an output needs it, through the same tokeniser, so that memory holds a record once.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+mod series;
+
+pub use series::{Series, lost_samples};
+
+/// Where the bytes of a record come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Source {
+    /// A file.
+    File(PathBuf),
+    /// Bytes that the program makes itself, under a name like `wildpoint:demo`.
+    BuiltIn {
+        /// The name that a session file gives as its data.
+        name: &'static str,
+        /// The bytes, in the form of a CSV file.
+        bytes: Arc<[u8]>,
+    },
+}
+
+/// A record as it was loaded.
+#[derive(Debug, Clone)]
+pub struct Track {
+    /// Where it came from.
+    pub source: Source,
+    /// SHA-256 of the bytes of the source as they are stored (compressed, if it is), in lower-case hexadecimal.
+    pub sha256: String,
+    /// How the text is laid out.
+    pub dialect: Dialect,
+    /// Data rows, whatever they hold.
+    pub rows: usize,
+    /// Every column of the file, in order.
+    pub columns: Vec<Column>,
+    /// The time of each row.
+    pub time: TimeAxis,
+    /// The numeric columns that were loaded, in the order of the file (or of the user's list).
+    pub channels: Vec<Channel>,
+    /// The truth column, where there is one: true marks a real outlier.
+    pub truth: Option<Vec<bool>>,
+    /// What could not be used, with line numbers.
+    pub faults: Faults,
+}
+
+/// How a text file lays out its cells.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Dialect {
+    /// What stands between two cells.
+    pub delimiter: Delimiter,
+    /// The quote character, where cells may be quoted.
+    pub quote: Option<u8>,
+    /// True when `1,5` means one and a half.
+    pub decimal_comma: bool,
+    /// How the bytes encode text.
+    pub encoding: Encoding,
+    /// True when the bytes are gzipped.
+    pub gzip: bool,
+    /// True when the first line that is not a comment names the columns.
+    pub header: bool,
+    /// True when a line of units follows the header.
+    pub units_row: bool,
+    /// Cells that mean "no value", besides the empty cell.
+    pub missing: Vec<String>,
+}
+
+/// What stands between two cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Delimiter {
+    /// One byte: comma, semicolon, tab or pipe.
+    Byte(u8),
+    /// A run of blanks and tabs.
+    Blanks,
+}
+
+/// How the bytes of a file encode text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Encoding {
+    /// UTF-8, of which ASCII is a part; `bom` when it starts with a byte order mark.
+    Utf8 {
+        /// True when the file starts with a byte order mark.
+        bom: bool,
+    },
+    /// UTF-16, with its byte order mark.
+    Utf16 {
+        /// True for big-endian.
+        big_endian: bool,
+    },
+    /// Bytes above 127 that are not UTF-8: read as Windows-1252, of which Latin-1 is a part.
+    Latin1,
+}
+
+/// A column of the file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its name as it is in the header (made unique), or `column_3` where there is none.
+    pub name: String,
+    /// Its unit, as far as name or units row tell; empty when they do not.
+    pub unit: String,
+    /// What the loader takes it for.
+    pub kind: ColumnKind,
+    /// How many cells hold no value.
+    pub missing: usize,
+}
+
+/// What the loader takes a column for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColumnKind {
+    /// The time of the row.
+    Time,
+    /// Numbers.
+    Number,
+    /// 0 and 1, where 1 marks a real outlier.
+    Truth,
+    /// Something else, kept in the output and otherwise left alone.
+    Text,
+    /// No cell holds a value.
+    Empty,
+}
+
+/// One measured quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Channel {
+    /// Name of its column.
+    pub name: String,
+    /// Unit, or empty.
+    pub unit: String,
+    /// Index of its column in [`Track::columns`].
+    pub column: usize,
+    /// One value per row; NaN where there is none.
+    pub values: Vec<f64>,
+}
+
+/// The times of a record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TimeAxis {
+    /// Name of the column, or `sample` for the sample number.
+    pub name: String,
+    /// Index of the column; none for the sample number.
+    pub column: Option<usize>,
+    /// How the file writes times.
+    pub format: TimeFormat,
+    /// The time that is 0 in [`TimeAxis::seconds`], in nanoseconds: since 1970 for calendar formats, since the
+    /// file's own zero for others.
+    pub origin_ns: i128,
+    /// One time per row in seconds after the origin, strictly increasing; NaN where the row has no usable time
+    /// (none, unreadable, repeated, or before an earlier row).
+    pub seconds: Vec<f64>,
+}
+
+/// How a file writes times.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum TimeFormat {
+    /// No time column: the row number, counted from 0 at one a second.
+    SampleNumber,
+    /// A number of seconds from a zero of the file's own.
+    Seconds,
+    /// A number since 1970, in units of so many nanoseconds (1 000 000 000, 1 000 000, 1 000 or 1).
+    Epoch {
+        /// Nanoseconds in one unit.
+        unit_ns: i64,
+    },
+    /// A date and time in ISO order: `2019-11-11T17:57:05Z`, `2019-01-01 00:00`.
+    Iso,
+    /// A time of day: `17:57:05.25`. A step back of more than half a day is the next day.
+    Clock,
+}
+
+/// Rows and cells that could not be used, counted, the first few with their line numbers.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Faults {
+    /// Rows whose time is the same as that of an earlier row.
+    pub repeated_times: Fault,
+    /// Rows whose time lies before that of an earlier row.
+    pub backward_times: Fault,
+    /// Rows without a readable time.
+    pub unreadable_times: Fault,
+    /// Cells of numeric columns that hold something else than a number or a missing marker.
+    pub unreadable_cells: Fault,
+    /// Rows with fewer or more cells than the header.
+    pub ragged_rows: Fault,
+    /// Numbers too large for a double, taken as missing.
+    pub infinite_cells: Fault,
+}
+
+/// One kind of fault.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Fault {
+    /// How many.
+    pub count: usize,
+    /// The first few: line in the file (from 1) and what stands there.
+    pub first: Vec<(u64, String)>,
+}
+
+impl Fault {
+    /// How many faults of a kind are kept with their line.
+    pub const KEPT: usize = 5;
+
+    /// Counts one more.
+    pub fn add(&mut self, line: u64, what: &str) {
+        self.count += 1;
+        if self.first.len() < Self::KEPT {
+            self.first.push((line, what.chars().take(60).collect()));
+        }
+    }
+}
+
+impl Track {
+    /// The channel of this name.
+    #[must_use]
+    pub fn channel(&self, name: &str) -> Option<&Channel> {
+        self.channels.iter().find(|c| c.name == name)
+    }
+}

@@ -1,0 +1,155 @@
+//! The present samples of one channel, and where the record is cut.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use super::{Channel, TimeAxis};
+
+/// The samples of a channel that have both a time and a value, in order. Methods, repairs and plots work on
+/// positions in this list; [`Series::row`] leads back to the row of the file.
+#[derive(Debug, Clone)]
+pub struct Series<'a> {
+    /// Row of each sample; none when every row is present.
+    rows: Option<Vec<u32>>,
+    /// Times in seconds after the origin of the track, strictly increasing.
+    pub t: Cow<'a, [f64]>,
+    /// Values, all finite.
+    pub y: Cow<'a, [f64]>,
+    /// Nominal interval `T`: the median of the steps between neighbours, in seconds; NaN with fewer than two samples.
+    pub interval: f64,
+}
+
+impl<'a> Series<'a> {
+    /// The present samples of `channel`.
+    #[must_use]
+    pub fn of(channel: &'a Channel, time: &'a TimeAxis) -> Self {
+        Self::new(&time.seconds, &channel.values)
+    }
+
+    /// The samples at which both slices are finite. `t` must increase over them.
+    #[must_use]
+    pub fn new(t: &'a [f64], y: &'a [f64]) -> Self {
+        let present = |i: &usize| t[*i].is_finite() && y[*i].is_finite();
+        let n = t.len().min(y.len());
+        if (0..n).all(|i| present(&i)) {
+            let (t, y) = (&t[..n], &y[..n]);
+            return Self { rows: None, t: Cow::Borrowed(t), y: Cow::Borrowed(y), interval: nominal_interval(t) };
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "the loader refuses files of 2^32 rows and more")]
+        let rows: Vec<u32> = (0..n).filter(present).map(|i| i as u32).collect();
+        let t: Vec<f64> = rows.iter().map(|&i| t[i as usize]).collect();
+        let y = rows.iter().map(|&i| y[i as usize]).collect();
+        let interval = nominal_interval(&t);
+        Self { rows: Some(rows), t: Cow::Owned(t), y: Cow::Owned(y), interval }
+    }
+
+    /// How many samples are present.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.t.len()
+    }
+
+    /// True when no sample is present.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.t.is_empty()
+    }
+
+    /// Row (from 0) of the sample at `position`.
+    #[must_use]
+    pub fn row(&self, position: usize) -> usize {
+        self.rows.as_ref().map_or(position, |rows| rows[position] as usize)
+    }
+
+    /// Position of the sample of `row` (from 0), if that row is present.
+    #[must_use]
+    pub fn position(&self, row: usize) -> Option<usize> {
+        match &self.rows {
+            None => (row < self.len()).then_some(row),
+            Some(rows) => u32::try_from(row).ok().and_then(|row| rows.binary_search(&row).ok()),
+        }
+    }
+
+    /// Samples lost between the one at `position` and the one before it; 0 for the first.
+    #[must_use]
+    pub fn lost_before(&self, position: usize) -> usize {
+        if position == 0 { 0 } else { lost_samples(self.t[position] - self.t[position - 1], self.interval) }
+    }
+
+    /// The stretches between cuts: a cut lies wherever more than `max_gap` samples are lost in a row (none: never).
+    #[must_use]
+    pub fn segments(&self, max_gap: Option<usize>) -> Vec<Range<usize>> {
+        let mut segments = Vec::new();
+        let mut start = 0;
+        if let Some(max_gap) = max_gap {
+            for i in 1..self.len() {
+                if self.lost_before(i) > max_gap {
+                    segments.push(start..i);
+                    start = i;
+                }
+            }
+        }
+        if start < self.len() {
+            segments.push(start..self.len());
+        }
+        segments
+    }
+}
+
+/// Samples lost in a step of `dt` seconds at a nominal interval of `interval` seconds. The small constant keeps a
+/// tie a tie when the times of the file are rounded.
+#[must_use]
+pub fn lost_samples(dt: f64, interval: f64) -> usize {
+    let steps = (dt / interval + 0.5 + 1e-6).floor();
+    // A cast from float saturates, and takes NaN (fewer than two samples) to 0.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates as wanted")]
+    let steps = steps as usize;
+    steps.saturating_sub(1)
+}
+
+fn nominal_interval(t: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = t.windows(2).map(|w| w[1] - w[0]).collect();
+    if steps.is_empty() {
+        return f64::NAN;
+    }
+    let middle = steps.len() / 2;
+    let (below, &mut upper, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
+    if t.len().is_multiple_of(2) {
+        return upper;
+    }
+    let lower = below.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    f64::midpoint(lower, upper)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn missing_samples_are_left_out_and_found_again() {
+        let t = [0.0, 1.0, f64::NAN, 3.0, 4.0];
+        let y = [5.0, f64::NAN, 7.0, 8.0, 9.0];
+        let s = Series::new(&t, &y);
+        assert_eq!((s.t.as_ref(), s.y.as_ref()), (&[0.0, 3.0, 4.0][..], &[5.0, 8.0, 9.0][..]));
+        assert_eq!((s.row(1), s.position(3), s.position(2)), (3, Some(1), None));
+    }
+
+    #[test]
+    fn a_cut_lies_where_more_than_max_gap_samples_are_lost() {
+        let t = [0.0, 1.0, 2.0, 3.0, 6.0, 7.0, 8.0, 12.5];
+        let y = [0.0; 8];
+        let s = Series::new(&t, &y);
+        assert_eq!((s.interval, s.lost_before(4), s.lost_before(7)), (1.0, 2, 4));
+        assert_eq!(s.segments(Some(2)), [0..7, 7..8]);
+        assert_eq!(s.segments(Some(1)), [0..4, 4..7, 7..8]);
+        assert_eq!(s.segments(None), [0..8]);
+    }
+
+    #[test]
+    fn a_step_of_one_and_a_half_intervals_has_lost_one_sample_even_when_rounded() {
+        assert_eq!(lost_samples(1.5, 1.0), 1);
+        assert_eq!(lost_samples(1.499_999_9, 1.0), 1);
+        assert_eq!(lost_samples(1.4, 1.0), 0);
+        assert_eq!(lost_samples(1.0, f64::NAN), 0);
+    }
+}
