@@ -87,12 +87,6 @@ impl Error {
     }
 }
 
-impl From<crate::stop::Stopped> for Error {
-    fn from(_: crate::stop::Stopped) -> Self {
-        Self::Stopped
-    }
-}
-
 /// `did you mean`: the candidate closest to `name`, when one is close enough to be a slip of the finger.
 #[must_use]
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {

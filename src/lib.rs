@@ -3,8 +3,8 @@
 //! The modules are layers: each imports only from those listed before it (`tests/layers.rs` holds them to that).
 
 pub mod error;
-pub mod math;
-pub mod method;
-pub mod param;
-pub mod stop;
 pub mod track;
+pub mod math;
+pub mod stop;
+pub mod param;
+pub mod method;

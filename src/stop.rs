@@ -10,6 +10,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stopped;
 
+impl From<Stopped> for crate::error::Error {
+    fn from(_: Stopped) -> Self {
+        Self::Stopped
+    }
+}
+
 /// Asked by a computation whether anybody still waits for it.
 #[derive(Debug, Clone, Default)]
 pub struct Stop(Option<(Arc<AtomicU64>, u64)>);

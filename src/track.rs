@@ -6,9 +6,40 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+mod axis;
+mod body;
+mod built_in;
+mod calendar;
+mod cells;
+mod checks;
+mod head;
+mod load;
+mod names;
+mod notes;
+mod number;
+mod order;
+mod outputs;
+mod printable;
+mod rewrite;
+mod roles;
+mod rows;
 mod series;
+mod shape;
+mod sniff;
+mod stamp;
+mod text;
+mod timing;
+mod tokens;
 
-pub use series::{Series, lost_samples};
+pub use cells::Cells;
+pub use checks::RowChecks;
+pub use load::{LoadOptions, load};
+pub use number::number_text;
+pub use outputs::Outputs;
+pub use printable::printable;
+pub use rewrite::{CellChange, Changes, NewRow, rewrite};
+pub use rows::for_each_row;
+pub use series::{Samples, Series, lost_samples};
 
 /// Where the bytes of a record come from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,6 +76,8 @@ pub struct Track {
     pub truth: Option<Vec<bool>>,
     /// What could not be used, with line numbers.
     pub faults: Faults,
+    /// What the user should know before trusting the record, in plain words.
+    pub notes: Vec<String>,
 }
 
 /// How a text file lays out its cells.
@@ -64,8 +97,10 @@ pub struct Dialect {
     pub header: bool,
     /// True when a line of units follows the header.
     pub units_row: bool,
-    /// Cells that mean "no value", besides the empty cell.
+    /// Cells that mean "no value", besides the empty cell and the usual markers (NaN, NA, N/A, null, none, -, --).
     pub missing: Vec<String>,
+    /// Lines before the first data row that are neither comments nor blank: titles, header, units.
+    pub preamble: usize,
 }
 
 /// What stands between two cells.
@@ -142,6 +177,8 @@ pub struct TimeAxis {
     pub name: String,
     /// Index of the column; none for the sample number.
     pub column: Option<usize>,
+    /// Index of the column of the date, where date and time of day stand apart; `column` is then the time of day.
+    pub date_column: Option<usize>,
     /// How the file writes times.
     pub format: TimeFormat,
     /// The time that is 0 in [`TimeAxis::seconds`], in nanoseconds: since 1970 for calendar formats, since the
@@ -159,6 +196,11 @@ pub enum TimeFormat {
     SampleNumber,
     /// A number of seconds from a zero of the file's own.
     Seconds,
+    /// A number from a zero of the file's own, in units of so many nanoseconds (milliseconds, days, …).
+    Elapsed {
+        /// Nanoseconds in one unit.
+        unit_ns: i64,
+    },
     /// A number since 1970, in units of so many nanoseconds (1 000 000 000, 1 000 000, 1 000 or 1).
     Epoch {
         /// Nanoseconds in one unit.
@@ -166,6 +208,11 @@ pub enum TimeFormat {
     },
     /// A date and time in ISO order: `2019-11-11T17:57:05Z`, `2019-01-01 00:00`.
     Iso,
+    /// A date with the year last, and perhaps a time: `3/23/2005 17:00`, `23.03.2005`.
+    YearLast {
+        /// True when the day stands before the month.
+        day_first: bool,
+    },
     /// A time of day: `17:57:05.25`. A step back of more than half a day is the next day.
     Clock,
 }
@@ -181,7 +228,8 @@ pub struct Faults {
     pub unreadable_times: Fault,
     /// Cells of numeric columns that hold something else than a number or a missing marker.
     pub unreadable_cells: Fault,
-    /// Rows with fewer or more cells than the header.
+    /// Rows with fewer or more cells than the header (one empty cell more, made by a delimiter at the end of every
+    /// row, is none).
     pub ragged_rows: Fault,
     /// Numbers too large for a double, taken as missing.
     pub infinite_cells: Fault,
@@ -205,6 +253,27 @@ impl Fault {
         self.count += 1;
         if self.first.len() < Self::KEPT {
             self.first.push((line, what.chars().take(60).collect()));
+        }
+    }
+}
+
+impl TimeFormat {
+    /// How times are written, in words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self {
+            Self::SampleNumber => "sample number".into(),
+            Self::Seconds => "seconds".into(),
+            Self::Epoch { unit_ns: 1_000_000_000 } => "seconds since 1970".into(),
+            Self::Epoch { unit_ns: 1_000_000 } => "milliseconds since 1970".into(),
+            Self::Epoch { unit_ns: 1_000 } => "microseconds since 1970".into(),
+            Self::Epoch { unit_ns: 1 } => "nanoseconds since 1970".into(),
+            Self::Epoch { unit_ns } => format!("units of {unit_ns} ns since 1970"),
+            Self::Elapsed { unit_ns } => format!("units of {} s", *unit_ns as f64 / 1e9),
+            Self::YearLast { day_first: true } => "day/month/year".into(),
+            Self::YearLast { day_first: false } => "month/day/year".into(),
+            Self::Iso => "ISO 8601".into(),
+            Self::Clock => "time of day".into(),
         }
     }
 }

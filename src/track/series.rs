@@ -10,13 +10,59 @@ use super::{Channel, TimeAxis};
 #[derive(Debug, Clone)]
 pub struct Series<'a> {
     /// Row of each sample; none when every row is present.
-    rows: Option<Vec<u32>>,
+    rows: Option<Cow<'a, [u32]>>,
     /// Times in seconds after the origin of the track, strictly increasing.
     pub t: Cow<'a, [f64]>,
     /// Values, all finite.
     pub y: Cow<'a, [f64]>,
     /// Nominal interval `T`: the median of the steps between neighbours, in seconds; NaN with fewer than two samples.
     pub interval: f64,
+}
+
+/// What a [`Series`] has to remember of a channel so that it can be looked at again at no cost: nothing but the
+/// interval when every row is present, otherwise copies of the present samples.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Samples {
+    present: Option<Present>,
+    interval: f64,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Present {
+    rows: Vec<u32>,
+    t: Vec<f64>,
+    y: Vec<f64>,
+}
+
+impl Samples {
+    /// The present samples of `channel`.
+    #[must_use]
+    pub fn of(channel: &Channel, time: &TimeAxis) -> Self {
+        let series = Series::of(channel, time);
+        let present = series.rows.map(|rows| Present {
+            rows: rows.into_owned(),
+            t: series.t.into_owned(),
+            y: series.y.into_owned(),
+        });
+        Self { present, interval: series.interval }
+    }
+
+    /// The samples, of the channel and the times that they were made of.
+    #[must_use]
+    pub fn series<'a>(&'a self, channel: &'a Channel, time: &'a TimeAxis) -> Series<'a> {
+        let interval = self.interval;
+        match &self.present {
+            None => {
+                let n = time.seconds.len().min(channel.values.len());
+                let (t, y) = (Cow::Borrowed(&time.seconds[..n]), Cow::Borrowed(&channel.values[..n]));
+                Series { rows: None, t, y, interval }
+            }
+            Some(p) => {
+                let (t, y) = (Cow::Borrowed(p.t.as_slice()), Cow::Borrowed(p.y.as_slice()));
+                Series { rows: Some(Cow::Borrowed(&p.rows)), t, y, interval }
+            }
+        }
+    }
 }
 
 impl<'a> Series<'a> {
@@ -40,7 +86,7 @@ impl<'a> Series<'a> {
         let t: Vec<f64> = rows.iter().map(|&i| t[i as usize]).collect();
         let y = rows.iter().map(|&i| y[i as usize]).collect();
         let interval = nominal_interval(&t);
-        Self { rows: Some(rows), t: Cow::Owned(t), y: Cow::Owned(y), interval }
+        Self { rows: Some(Cow::Owned(rows)), t: Cow::Owned(t), y: Cow::Owned(y), interval }
     }
 
     /// How many samples are present.
@@ -61,6 +107,12 @@ impl<'a> Series<'a> {
         self.rows.as_ref().map_or(position, |rows| rows[position] as usize)
     }
 
+    /// Row (from 0) of the sample at `position`, if there is such a sample.
+    #[must_use]
+    pub fn row_of(&self, position: usize) -> Option<usize> {
+        (position < self.len()).then(|| self.row(position))
+    }
+
     /// Position of the sample of `row` (from 0), if that row is present.
     #[must_use]
     pub fn position(&self, row: usize) -> Option<usize> {
@@ -68,6 +120,12 @@ impl<'a> Series<'a> {
             None => (row < self.len()).then_some(row),
             Some(rows) => u32::try_from(row).ok().and_then(|row| rows.binary_search(&row).ok()),
         }
+    }
+
+    /// Where a sample at time `t` would stand: how many samples lie before it.
+    #[must_use]
+    pub fn before(&self, t: f64) -> usize {
+        self.t.partition_point(|x| *x < t)
     }
 
     /// Samples lost between the one at `position` and the one before it; 0 for the first.
@@ -142,7 +200,7 @@ mod tests {
         assert_eq!((s.interval, s.lost_before(4), s.lost_before(7)), (1.0, 2, 4));
         assert_eq!(s.segments(Some(2)), [0..7, 7..8]);
         assert_eq!(s.segments(Some(1)), [0..4, 4..7, 7..8]);
-        assert_eq!(s.segments(None), [0..8]);
+        assert_eq!(s.segments(None).as_slice(), std::slice::from_ref(&(0..8)));
     }
 
     #[test]

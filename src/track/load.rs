@@ -1,0 +1,293 @@
+//! Loading a record.
+
+use std::path::Path;
+
+use super::body::{Body, Numbers, Plan, parse};
+use super::head::{Head, open_quote};
+use super::order::{Moments, Ordered, Rows, order};
+use super::roles::{Roles, assign};
+use super::shape::{refuse_long_form, refuse_other_formats};
+use super::text::{Text, path_of, sha256, stored};
+use super::timing::{Timing, choose};
+use super::tokens::inner;
+use super::{
+    Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Fault, Faults, Source, TimeAxis, TimeFormat, Track,
+    notes, printable, rows,
+};
+use crate::error::{Error, Result};
+
+/// What the user tells about a file. What is not told is recognised.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct LoadOptions {
+    /// The time column, by name or as `#3`; `sample` for the sample number. Recognised: the column that looks most
+    /// like a time, otherwise the sample number.
+    pub time: Option<String>,
+    /// The channels, by name or as `#3`. None: every numeric column that is neither time nor truth.
+    pub channels: Vec<String>,
+    /// The truth column. Recognised: the only column of 0 and 1 with `truth` in its name.
+    pub truth: Option<String>,
+    /// Cells that mean "no value", besides the usual ones; numbers are compared by value.
+    pub missing: Vec<String>,
+    /// What stands between two cells.
+    pub delimiter: Option<Delimiter>,
+    /// True when `1,5` means one and a half.
+    pub decimal_comma: Option<bool>,
+    /// The encoding of the text.
+    pub encoding: Option<Encoding>,
+    /// Whether the first line names the columns.
+    pub header: Option<bool>,
+    /// False where quotes are ordinary characters.
+    pub quotes: Option<bool>,
+    /// Whether 1/2/2005 is in February. Needed where the file does not show it.
+    pub day_first: Option<bool>,
+}
+
+/// Loads a record.
+///
+/// # Errors
+/// [`Error::Io`] when the source cannot be read; [`Error::Input`] when it is no table of numbers, with the line and
+/// the way out; [`Error::Usage`] when a column of the options is not there.
+pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
+    let path = path_of(source);
+    let stored = stored(source)?;
+    let text = Text::of(&stored, &path, options.encoding)?;
+    refuse_other_formats(text.body(), &path)?;
+    let head = Head::of(&text, options, &path)?;
+    refuse_long_form(&head, &path)?;
+    let by_sample = options.time.as_deref() == Some("sample") && !head.names.iter().any(|n| n == "sample");
+    let timing = if by_sample { None } else { choose(&head, options, &path)? };
+    let roles = assign(&head, timing.as_ref(), options)?;
+    let (sha256, parsed) =
+        rayon::join(|| sha256(&stored), || parse_rows(&text, &head, timing.as_ref(), &roles.slots, &path));
+    let (mut body, moments) = parsed?;
+    if u32::try_from(body.rows).is_err() {
+        return Err(Error::input(&path, format!("{} rows are too many", body.rows), "split the file below 2^32 rows"));
+    }
+    let columns = columns_of(&head, timing.as_ref(), &roles, &body, options)?;
+    let clock = timing.as_ref().is_some_and(|t| t.format == TimeFormat::Clock);
+    let ordered = moments.map(|m| order(m, clock));
+    let mut track = Track {
+        source: source.clone(),
+        sha256,
+        dialect: dialect_of(&head, &text, options),
+        rows: body.rows,
+        time: time_axis(&head, timing.as_ref(), body.rows),
+        truth: truth_of(&columns, &roles, &body, &path)?,
+        channels: channels_of(&columns, &roles, &mut body, &path)?,
+        faults: cell_faults(&columns, &roles, &body),
+        columns,
+        notes: Vec::new(),
+    };
+    if let Some(ordered) = ordered {
+        take_times(&mut track, ordered, &text)?;
+    }
+    track.notes.extend(notes::about_shape(&track, &head));
+    Ok(track)
+}
+
+/// The rows, and the moments of the time column where there is one.
+fn parse_rows(
+    text: &Text<'_>,
+    head: &Head,
+    timing: Option<&Timing>,
+    slots: &[Option<usize>],
+    path: &Path,
+) -> Result<(Body, Option<Moments>)> {
+    let mut plan = Plan {
+        layout: head.layout,
+        encoding: text.encoding,
+        reading: &head.reading,
+        slots: slots.to_vec(),
+        counts: head.counts,
+        timing: timing.cloned(),
+        record_bytes: head.record_bytes,
+    };
+    let rows = &text.body()[head.data_start..];
+    let mut body = parse(rows, head.data_line, &plan).map_err(|q| open_quote(path, q))?;
+    let Some(timing) = timing else { return Ok((body, None)) };
+    if body.rounded == 0 || timing.format != TimeFormat::Seconds {
+        let moments = std::mem::take(&mut body.moments);
+        return Ok((body, Some(Moments::Exact(moments))));
+    }
+    // Times with more decimals than nanoseconds are doubles that were written out in full: take them as such.
+    let slot = slots.iter().flatten().max().map_or(0, |s| s + 1);
+    plan.timing = None;
+    plan.slots[timing.column] = Some(slot);
+    let mut body = parse(rows, head.data_line, &plan).map_err(|q| open_quote(path, q))?;
+    let seconds = body.numbers.pop().map(|n| n.values).unwrap_or_default();
+    Ok((body, Some(Moments::Float(seconds))))
+}
+
+fn dialect_of(head: &Head, text: &Text<'_>, options: &LoadOptions) -> Dialect {
+    Dialect {
+        delimiter: head.layout.delimiter,
+        quote: head.layout.quote,
+        decimal_comma: head.reading.decimal_comma,
+        encoding: text.encoding,
+        gzip: text.gzip,
+        header: head.header,
+        units_row: head.units_row,
+        missing: options.missing.clone(),
+        preamble: head.preamble,
+    }
+}
+
+/// The columns, with their kinds by what was found in them.
+fn columns_of(
+    head: &Head,
+    timing: Option<&Timing>,
+    roles: &Roles,
+    body: &Body,
+    options: &LoadOptions,
+) -> Result<Vec<Column>> {
+    let column = |index: usize| -> Result<Column> {
+        let name = &head.names[index];
+        let numbers = roles.slots[index].map(|slot| &body.numbers[slot]);
+        let kind = match numbers {
+            _ if timing.is_some_and(|t| t.column == index || t.date_column == Some(index)) => ColumnKind::Time,
+            Some(numbers) if roles.truth == Some(index) => {
+                check_truth(name, numbers)?;
+                ColumnKind::Truth
+            }
+            Some(numbers) => roles.kind(index, name, numbers),
+            None => roles.unread[index],
+        };
+        if kind != ColumnKind::Number && roles.channels.as_ref().is_some_and(|c| c.contains(&index)) {
+            let example = numbers.and_then(|n| n.unreadable.first.first()).map_or("nothing", |(_, what)| what);
+            return Err(Error::usage(
+                format!("`{}` is no channel of numbers: it holds `{}`", printable(name), printable(example)),
+                "choose another channel, or tell what means \"no value\" in it",
+            ));
+        }
+        Ok(Column { name: name.clone(), unit: head.units[index].clone(), kind, missing: body.missing[index] })
+    };
+    let mut columns = (0..head.names.len()).map(column).collect::<Result<Vec<_>>>()?;
+    if options.channels.is_empty() && !columns.iter().any(|c| c.kind == ColumnKind::Number) {
+        // A lone column that looks like truth is all there is to look at.
+        columns.iter_mut().filter(|c| c.kind == ColumnKind::Truth).for_each(|c| c.kind = ColumnKind::Number);
+    }
+    Ok(columns)
+}
+
+fn check_truth(name: &str, numbers: &Numbers) -> Result<()> {
+    let odd = numbers.values.iter().find(|v| !(v.is_nan() || **v == 0.0 || **v == 1.0)).map(f64::to_string);
+    match odd.or_else(|| numbers.unreadable.first.first().map(|(_, what)| what.clone())) {
+        None => Ok(()),
+        Some(odd) => Err(Error::usage(
+            format!("`{}` is no truth column: it holds {}", printable(name), printable(&odd)),
+            "a truth column holds 1 for a real outlier and 0 for any other sample",
+        )),
+    }
+}
+
+fn truth_of(columns: &[Column], roles: &Roles, body: &Body, path: &Path) -> Result<Option<Vec<bool>>> {
+    let mut found = columns.iter().enumerate().filter(|(_, c)| c.kind == ColumnKind::Truth).map(|(i, _)| i);
+    let index = match (roles.truth, found.next(), found.next()) {
+        (Some(told), _, _) => told,
+        (None, Some(only), None) => only,
+        _ => return Ok(None),
+    };
+    let slot =
+        roles.slots[index].ok_or_else(|| Error::input(path, "the truth column was not read", "load it again"))?;
+    Ok(Some(body.numbers[slot].values.iter().map(|v| *v == 1.0).collect()))
+}
+
+fn channels_of(columns: &[Column], roles: &Roles, body: &mut Body, path: &Path) -> Result<Vec<Channel>> {
+    let by_kind = || (0..columns.len()).filter(|c| columns[*c].kind == ColumnKind::Number).collect();
+    let wanted: Vec<usize> = roles.channels.clone().unwrap_or_else(by_kind);
+    let channel = |index: usize| {
+        let values = roles.slots[index].map(|slot| std::mem::take(&mut body.numbers[slot].values)).unwrap_or_default();
+        let Column { name, unit, .. } = &columns[index];
+        Channel { name: name.clone(), unit: unit.clone(), column: index, values }
+    };
+    let channels: Vec<Channel> = wanted.into_iter().map(channel).collect();
+    if channels.is_empty() {
+        let names: Vec<String> = columns.iter().take(30).map(|c| printable(&c.name)).collect();
+        return Err(Error::input(
+            path,
+            format!("no column of numbers besides the time; the columns are {}", names.join(", ")),
+            "choose another time column with --time (`sample` for the sample number), or name a file with numbers",
+        ));
+    }
+    Ok(channels)
+}
+
+/// Faults of cells in columns of numbers, in the order of their lines.
+fn cell_faults(columns: &[Column], roles: &Roles, body: &Body) -> Faults {
+    let gather = |of: fn(&Numbers) -> &Fault| {
+        let mut all = Fault::default();
+        for (column, slot) in columns.iter().zip(&roles.slots) {
+            let Some(slot) = slot.filter(|_| matches!(column.kind, ColumnKind::Number | ColumnKind::Truth)) else {
+                continue;
+            };
+            let fault = of(&body.numbers[slot]);
+            all.count += fault.count;
+            all.first.extend(fault.first.iter().map(|(line, what)| (*line, format!("{what} ({})", column.name))));
+        }
+        all.first.sort_by_key(|(line, _)| *line);
+        all.first.truncate(Fault::KEPT);
+        all
+    };
+    Faults {
+        unreadable_cells: gather(|n| &n.unreadable),
+        infinite_cells: gather(|n| &n.infinite),
+        ragged_rows: body.ragged.clone(),
+        ..Faults::default()
+    }
+}
+
+/// The axis of the file; the sample number until the times are taken.
+fn time_axis(head: &Head, timing: Option<&Timing>, rows: usize) -> TimeAxis {
+    match timing {
+        Some(timing) => TimeAxis {
+            name: head.names[timing.column].clone(),
+            column: Some(timing.column),
+            date_column: timing.date_column,
+            format: timing.format.clone(),
+            origin_ns: 0,
+            seconds: Vec::new(),
+        },
+        None => TimeAxis {
+            name: "sample".into(),
+            column: None,
+            date_column: None,
+            format: TimeFormat::SampleNumber,
+            origin_ns: 0,
+            #[expect(clippy::cast_precision_loss, reason = "fewer than 2^32 rows")]
+            seconds: (0..rows).map(|row| row as f64).collect(),
+        },
+    }
+}
+
+/// Takes the times of the rows, and finds the lines of those that are of no use.
+fn take_times(track: &mut Track, ordered: Ordered, text: &Text<'_>) -> Result<()> {
+    let Ordered { origin_ns, seconds, repeated, backward, unreadable } = ordered;
+    let last = [&repeated, &backward, &unreadable].iter().filter_map(|r| r.first.last().copied()).max();
+    track.time.origin_ns = origin_ns;
+    track.time.seconds = seconds;
+    let mut faults = [(repeated, Fault::default()), (backward, Fault::default()), (unreadable, Fault::default())];
+    let column = track.time.column.unwrap_or_default();
+    if let Some(last) = last {
+        rows::walk(track, text, |row, record, spans| {
+            for (rows, fault) in faults.iter_mut().filter(|(r, _)| r.first.contains(&row)) {
+                let raw = spans.get(column).map_or(&[][..], |s| s.of(record.bytes));
+                let cell = &raw[inner(raw, track.dialect.quote)];
+                fault.add(record.line, &super::text::decoded(cell, text.encoding));
+                debug_assert!(fault.count <= rows.count);
+            }
+            Ok(row < last)
+        })?;
+    }
+    let first_backward = faults[1].0.first.first().copied();
+    let counted = |(rows, fault): (Rows, Fault)| Fault { count: rows.count, ..fault };
+    let [repeated, backward, unreadable] = faults.map(counted);
+    if let Some(row) = first_backward
+        && backward.count * 10 > track.rows
+    {
+        track.notes.push(notes::about_backward_times(track, text, row, &backward)?);
+    }
+    track.faults.repeated_times = repeated;
+    track.faults.backward_times = backward;
+    track.faults.unreadable_times = unreadable;
+    Ok(())
+}

@@ -1,0 +1,73 @@
+//! What a user should know before trusting a record, in plain words.
+
+use super::cells::Cells;
+use super::head::Head;
+use super::text::Text;
+use super::{ColumnKind, Fault, TimeFormat, Track, names, printable, rows, timing};
+use crate::error::Result;
+
+/// Words in the names of columns that tell tracks apart.
+const IDS: [&str; 17] = [
+    "id", "flight", "station", "svid", "sv", "prn", "sat", "beacon", "bird", "callsign", "icao24", "series", "sensor",
+    "target", "track", "object", "channel",
+];
+
+/// The note for a record in which more than a tenth of the rows lie before an earlier one, from `row` on.
+///
+/// # Errors
+/// What a walk over the rows gives.
+pub(crate) fn about_backward_times(track: &Track, text: &Text<'_>, row: usize, backward: &Fault) -> Result<String> {
+    let mut before: Vec<String> = Vec::new();
+    let mut here: Vec<String> = Vec::new();
+    rows::walk(track, text, |r, record, spans| {
+        if r + 1 >= row {
+            let cells =
+                Cells { record: record.bytes, spans, quote: track.dialect.quote, encoding: text.encoding, line: 0 };
+            before =
+                std::mem::replace(&mut here, (0..track.columns.len()).map(|c| cells.text(c).into_owned()).collect());
+        }
+        Ok(r < row)
+    })?;
+    let time = track.time.column.and_then(|c| before.get(c)).map(|t| printable(t)).unwrap_or_default();
+    let id = track.columns.iter().enumerate().find(|(c, column)| {
+        let named = names::words(&column.name).iter().any(|w| IDS.iter().any(|id| w.eq_ignore_ascii_case(id)));
+        let differs = before.get(*c) != here.get(*c);
+        named || (column.kind == ColumnKind::Text && differs)
+    });
+    let cause = match id {
+        Some((_, column)) => format!("or several tracks in one table, told apart by `{}`", printable(&column.name)),
+        None => "or several tracks in one table".into(),
+    };
+    Ok(format!(
+        "time goes back after row {row} ({time}): {} of {} rows lie before an earlier row and count as missing; \
+         perhaps a wild time stamp, {cause}",
+        backward.count, track.rows
+    ))
+}
+
+/// Notes about rows of several kinds, and about a time column that has no name.
+pub(crate) fn about_shape(track: &Track, head: &Head) -> Vec<String> {
+    let mut notes = Vec::new();
+    let ragged = &track.faults.ragged_rows;
+    if ragged.count * 10 > track.rows {
+        let (line, cells) = ragged.first.first().cloned().unwrap_or_default();
+        notes.push(format!(
+            "{} of {} rows have another number of cells than the {} columns (line {line}: {cells}): perhaps rows of \
+             several kinds in one table",
+            ragged.count,
+            track.rows,
+            track.columns.len()
+        ));
+    }
+    if track.time.format == TimeFormat::SampleNumber
+        && track.columns.len() > 1
+        && let Some(first) = track.columns.first().filter(|c| c.kind == ColumnKind::Number)
+        && timing::increases(head, 0)
+    {
+        notes.push(format!(
+            "time is the sample number; `{}` increases from row to row: if it is the time, say --time '#1'",
+            printable(&first.name)
+        ));
+    }
+    notes
+}

@@ -1,0 +1,186 @@
+//! From moments to a time axis: the origin, seconds after it, and the rows that do not go forward.
+
+use super::axis::seconds_of;
+use super::calendar::{DAY, SECOND};
+use super::timing::is_midnight;
+
+/// The moments of all rows.
+#[derive(Debug)]
+pub(crate) enum Moments {
+    /// Nanoseconds; [`UNREADABLE`] where there is none.
+    Exact(Vec<i64>),
+    /// Seconds as doubles, for files whose times have more decimals than nanoseconds; NaN where there is none.
+    Float(Vec<f64>),
+}
+
+/// Stands for a moment that could not be read.
+pub(crate) const UNREADABLE: i64 = i64::MIN;
+
+/// Rows whose time is of no use: how many, and the first few.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct Rows {
+    pub(crate) count: usize,
+    pub(crate) first: Vec<usize>,
+}
+
+impl Rows {
+    fn add(&mut self, row: usize) {
+        self.count += 1;
+        if self.first.len() < super::Fault::KEPT {
+            self.first.push(row);
+        }
+    }
+}
+
+/// Moments put in order.
+#[derive(Debug, Default)]
+pub(crate) struct Ordered {
+    pub(crate) origin_ns: i128,
+    pub(crate) seconds: Vec<f64>,
+    pub(crate) repeated: Rows,
+    pub(crate) backward: Rows,
+    pub(crate) unreadable: Rows,
+}
+
+/// Puts moments in order: the first readable one is the origin, and a row whose moment is not after that of the last
+/// usable row gets NaN. With `clock`, moments are times of day, and a step back of more than half a day is midnight.
+pub(crate) fn order(moments: Moments, clock: bool) -> Ordered {
+    match moments {
+        Moments::Exact(ns) => exact(&ns, clock),
+        Moments::Float(seconds) => float(seconds),
+    }
+}
+
+fn exact(moments: &[i64], clock: bool) -> Ordered {
+    let mut ordered = Ordered { seconds: Vec::with_capacity(moments.len()), ..Ordered::default() };
+    let mut last: Option<i64> = None;
+    let mut last_seconds = 0.0;
+    let mut origin = 0;
+    let mut days = Days::default();
+    for (row, &moment) in moments.iter().enumerate() {
+        if moment == UNREADABLE {
+            ordered.unreadable.add(row);
+            ordered.seconds.push(f64::NAN);
+            continue;
+        }
+        let now = if clock { days.moment(moment, last) } else { moment };
+        let Some(before) = last else {
+            origin = now;
+            last = Some(now);
+            ordered.seconds.push(0.0);
+            continue;
+        };
+        // Over spans of months a double of seconds is coarser than a nanosecond: the axis must increase all the same.
+        let seconds = since(now, origin);
+        if seconds > last_seconds {
+            last = Some(now);
+            last_seconds = seconds;
+            ordered.seconds.push(seconds);
+            continue;
+        }
+        let fault = if now >= before { &mut ordered.repeated } else { &mut ordered.backward };
+        fault.add(row);
+        ordered.seconds.push(f64::NAN);
+    }
+    ordered.origin_ns = i128::from(origin);
+    ordered
+}
+
+/// The midnights that a file of times of day has passed.
+#[derive(Default)]
+struct Days {
+    passed: i64,
+}
+
+impl Days {
+    fn moment(&mut self, of_day: i64, last: Option<i64>) -> i64 {
+        let now = of_day.saturating_add(self.passed);
+        match last {
+            Some(last) if is_midnight(last, now) => self.passed += DAY,
+            // A straggler from before the midnight that was just passed is late, not a day early.
+            Some(last) if last - self.passed < 3600 * SECOND && self.passed > 0 && now - last > DAY - 3600 * SECOND => {
+                return now - DAY;
+            }
+            _ => {}
+        }
+        of_day.saturating_add(self.passed)
+    }
+}
+
+/// Nanoseconds between two moments in seconds, correctly rounded.
+fn since(now: i64, origin: i64) -> f64 {
+    const EXACT: i64 = 1 << 53;
+    match now.checked_sub(origin) {
+        #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+        Some(ns) if ns.abs() < EXACT => ns as f64 / 1e9,
+        _ => seconds_of(i128::from(now) - i128::from(origin)),
+    }
+}
+
+fn float(mut seconds: Vec<f64>) -> Ordered {
+    let mut ordered = Ordered::default();
+    let mut last = f64::NEG_INFINITY;
+    let mut last_seconds = f64::NEG_INFINITY;
+    let origin = seconds.iter().copied().find(|s| s.is_finite()).unwrap_or(0.0);
+    for (row, moment) in seconds.iter_mut().enumerate() {
+        let now = *moment;
+        *moment = now - origin;
+        if !now.is_finite() {
+            ordered.unreadable.add(row);
+        } else if now < last {
+            ordered.backward.add(row);
+        } else if *moment <= last_seconds {
+            ordered.repeated.add(row);
+        } else {
+            last = now;
+            last_seconds = *moment;
+            continue;
+        }
+        *moment = f64::NAN;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "saturates, and nanoseconds suffice")]
+    let origin_ns = (origin * 1e9).round() as i128;
+    Ordered { origin_ns, seconds, ..ordered }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_go_forward_is_nan_and_counted() {
+        let s = SECOND;
+        let ordered = order(Moments::Exact(vec![UNREADABLE, 5 * s, 6 * s, 6 * s, 4 * s, 6 * s, 7 * s]), false);
+        assert_eq!(ordered.origin_ns, 5_000_000_000);
+        let rows = |first: &[usize]| Rows { count: first.len(), first: first.to_vec() };
+        assert_eq!((ordered.unreadable, ordered.repeated, ordered.backward), (rows(&[0]), rows(&[3, 5]), rows(&[4])));
+        let usable: Vec<f64> = ordered.seconds.iter().copied().filter(|s| !s.is_nan()).collect();
+        assert_eq!((usable, ordered.seconds.len()), (vec![0.0, 1.0, 2.0], 7));
+    }
+
+    #[test]
+    fn seconds_after_a_large_origin_are_those_after_zero() {
+        let tenth = SECOND / 10;
+        let large = order(Moments::Exact((0..1000).map(|i| 1_700_000_000 * SECOND + i * tenth).collect()), false);
+        let expected: Vec<f64> = (0..1000).map(|i| format!("{}.{}", i / 10, i % 10).parse().unwrap()).collect();
+        assert_eq!(large.seconds, expected);
+    }
+
+    #[test]
+    fn times_of_day_pass_midnight_and_stragglers_stay_behind() {
+        let h = 3600 * SECOND;
+        let ordered = order(Moments::Exact(vec![23 * h, 24 * h - 1, 1, 24 * h - 5, 2, 13 * h, 1]), true);
+        let at = |ns: i64| since(ns, 23 * h);
+        let expected = [0.0, at(24 * h - 1), at(24 * h + 1), f64::NAN, at(24 * h + 2), at(37 * h), at(48 * h + 1)];
+        assert_eq!(format!("{:?}", ordered.seconds), format!("{expected:?}"));
+        assert_eq!(ordered.backward.first, [3]);
+    }
+
+    #[test]
+    fn long_decimals_are_taken_as_doubles() {
+        let ordered = order(Moments::Float(vec![0.1, 0.1 + 0.2, f64::NAN, 0.2, 0.5]), false);
+        assert_eq!(ordered.seconds[1], (0.1 + 0.2) - 0.1);
+        assert_eq!((ordered.unreadable.count, ordered.backward.count, ordered.origin_ns), (1, 1, 100_000_000));
+        assert!(ordered.seconds[3].is_nan() && ordered.seconds[4] == 0.4);
+    }
+}

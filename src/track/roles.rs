@@ -1,0 +1,95 @@
+//! What each column is read for.
+
+use super::body::Numbers;
+use super::head::Head;
+use super::sniff::{Look, look};
+use super::timing::Timing;
+use super::{ColumnKind, LoadOptions, names, printable};
+use crate::error::{Error, Result};
+
+/// Which columns are parsed as numbers, and why.
+#[derive(Debug)]
+pub(crate) struct Roles {
+    /// For each column, its place among the parsed ones.
+    pub(crate) slots: Vec<Option<usize>>,
+    /// The channels that the user named, in that order.
+    pub(crate) channels: Option<Vec<usize>>,
+    /// The truth column that the user named.
+    pub(crate) truth: Option<usize>,
+    /// For each column, its kind by the first rows, for the columns that are not parsed.
+    pub(crate) unread: Vec<ColumnKind>,
+}
+
+/// Gives each column its role.
+///
+/// # Errors
+/// [`Error::Usage`] for a column that is not there, or named for two roles.
+pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions) -> Result<Roles> {
+    let find = |name: &String| names::find(head.names.iter().map(String::as_str), name);
+    let mut channels = options.channels.iter().map(find).collect::<Result<Vec<_>>>()?;
+    let mut seen = vec![false; head.names.len()];
+    channels.retain(|c| !std::mem::replace(&mut seen[*c], true));
+    let truth = options.truth.as_ref().map(find).transpose()?;
+    let is_time = |c: usize| timing.is_some_and(|t| t.column == c || t.date_column == Some(c));
+    let twice = channels.iter().copied().find(|c| is_time(*c) || truth == Some(*c)).or(truth.filter(|t| is_time(*t)));
+    if let Some(column) = twice {
+        let role = if is_time(column) { "the time" } else { "the truth column" };
+        return Err(Error::usage(
+            format!("`{}` is {role} and cannot be another thing too", printable(&head.names[column])),
+            "name other columns, or another time with --time",
+        ));
+    }
+    let unread: Vec<ColumnKind> = (0..head.names.len()).map(|c| kind_by_sample(head, c)).collect();
+    let wanted = |c: usize| {
+        if is_time(c) {
+            false
+        } else if truth == Some(c) {
+            true
+        } else if channels.is_empty() {
+            matches!(unread[c], ColumnKind::Number | ColumnKind::Empty)
+        } else {
+            channels.contains(&c) || (names::is_truth(&head.names[c]) && unread[c] == ColumnKind::Number)
+        }
+    };
+    let mut next = 0;
+    let slots = (0..head.names.len()).map(|c| {
+        wanted(c).then(|| {
+            next += 1;
+            next - 1
+        })
+    });
+    Ok(Roles { slots: slots.collect(), channels: (!channels.is_empty()).then_some(channels), truth, unread })
+}
+
+impl Roles {
+    /// The kind of a parsed column: numbers where they are the majority of what is there.
+    pub(crate) fn kind(&self, index: usize, name: &str, numbers: &Numbers) -> ColumnKind {
+        let told = self.channels.as_ref().is_some_and(|c| c.contains(&index));
+        let all_bits = || numbers.values.iter().all(|v| v.is_nan() || *v == 0.0 || *v == 1.0);
+        if numbers.present == 0 {
+            if numbers.unreadable.count > 0 { ColumnKind::Text } else { ColumnKind::Empty }
+        } else if numbers.unreadable.count > numbers.present && !told {
+            ColumnKind::Text
+        } else if !told && names::is_truth(name) && numbers.unreadable.count == 0 && all_bits() {
+            ColumnKind::Truth
+        } else {
+            ColumnKind::Number
+        }
+    }
+}
+
+fn kind_by_sample(head: &Head, column: usize) -> ColumnKind {
+    let looks = head.column(column).into_iter().map(|c| look(c.as_bytes(), &head.reading));
+    let (numbers, others) = looks.fold((0, 0), |(numbers, others), look| match look {
+        Look::Number => (numbers + 1, others),
+        Look::Time | Look::Text => (numbers, others + 1),
+        Look::Empty => (numbers, others),
+    });
+    if numbers == 0 && others == 0 {
+        ColumnKind::Empty
+    } else if numbers >= others {
+        ColumnKind::Number
+    } else {
+        ColumnKind::Text
+    }
+}

@@ -1,0 +1,194 @@
+//! Recognising delimiter, quote and decimal comma from the first records.
+
+use super::number::{Cell, Reading};
+use super::tokens::{Layout, RecordKind, Records, inner, line_end_of, split};
+use super::{Delimiter, LoadOptions, stamp};
+
+/// How much of a file is looked at.
+const SAMPLE_BYTES: usize = 64 << 10;
+const SAMPLE_RECORDS: usize = 100;
+/// Blanks stand inside cells too (dates with times, padding): they must fit clearly better than any other delimiter.
+const BLANKS_HANDICAP: f64 = 0.1;
+
+/// What a cell looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Look {
+    /// No value.
+    Empty,
+    /// A number.
+    Number,
+    /// A date, a time of day, or both.
+    Time,
+    /// Anything else.
+    Text,
+}
+
+/// What `cell`, trimmed and unquoted, looks like.
+pub(crate) fn look(cell: &[u8], reading: &Reading) -> Look {
+    match reading.cell(cell) {
+        Cell::Number(_) | Cell::Infinite => Look::Number,
+        Cell::Missing => Look::Empty,
+        Cell::Text if stamp::iso(cell).is_some() || stamp::clock(cell).is_some() => Look::Time,
+        Cell::Text if stamp::year_last_parts(cell).is_some() => Look::Time,
+        Cell::Text => Look::Text,
+    }
+}
+
+/// How the cells of `body` are laid out, and whether they use a decimal comma. What the options tell is taken.
+pub(crate) fn sniff(body: &[u8], options: &LoadOptions) -> (Layout, bool) {
+    let line_end = line_end_of(body);
+    let sample = sample_of(body, line_end);
+    let quote = options.quotes.unwrap_or(true).then_some(b'"');
+    let mut layout = Layout { delimiter: Delimiter::Byte(b','), quote, line_end };
+    layout.delimiter = options.delimiter.unwrap_or_else(|| best_delimiter(sample, layout));
+    if quote.is_some() && single_quoted(sample, layout) {
+        layout.quote = Some(b'\'');
+        layout.delimiter = options.delimiter.unwrap_or_else(|| best_delimiter(sample, layout));
+    }
+    let comma_is_free = layout.delimiter != Delimiter::Byte(b',');
+    let decimal_comma = options.decimal_comma.unwrap_or_else(|| comma_is_free && has_decimal_commas(sample, layout));
+    (layout, decimal_comma)
+}
+
+/// The head of `body`, cut at a line end.
+fn sample_of(body: &[u8], line_end: u8) -> &[u8] {
+    if body.len() <= SAMPLE_BYTES {
+        return body;
+    }
+    let head = &body[..SAMPLE_BYTES];
+    head.iter().rposition(|b| *b == line_end).map_or(head, |at| &head[..=at])
+}
+
+/// Calls `f` with the cells of each data record of the sample.
+fn for_records(sample: &[u8], layout: Layout, mut f: impl FnMut(&[&[u8]])) {
+    let mut spans = Vec::new();
+    let records = Records::new(sample, layout).map_while(Result::ok).filter(|r| r.kind == RecordKind::Data);
+    for record in records.take(SAMPLE_RECORDS) {
+        split(record.bytes, layout, &mut spans);
+        let cells: Vec<&[u8]> = spans.iter().map(|s| s.of(record.bytes)).collect();
+        f(&cells);
+    }
+}
+
+fn best_delimiter(sample: &[u8], layout: Layout) -> Delimiter {
+    let mut best = (Delimiter::Byte(b','), 0.0);
+    for byte in *b",;\t|" {
+        let delimiter = Delimiter::Byte(byte);
+        let score = fitness(sample, Layout { delimiter, ..layout });
+        if score > best.1 {
+            best = (delimiter, score);
+        }
+    }
+    let blanks = fitness(sample, Layout { delimiter: Delimiter::Blanks, ..layout });
+    if blanks > best.1 + BLANKS_HANDICAP || (best.1 == 0.0 && blanks > 0.0) { Delimiter::Blanks } else { best.0 }
+}
+
+/// How well a delimiter fits: the share of records with the usual number of cells, times the share of cells that
+/// read as numbers or times; 0 where the usual record has one cell.
+fn fitness(sample: &[u8], layout: Layout) -> f64 {
+    let point = Reading::new(false, &[]);
+    let comma = Reading::new(true, &[]);
+    let mut counts: Vec<usize> = Vec::new();
+    let (mut cells_seen, mut cells_read) = (0.0, 0.0);
+    for_records(sample, layout, |cells| {
+        counts.push(cells.len());
+        for raw in cells {
+            let cell = &raw[inner(raw, layout.quote)];
+            let comma_fits = layout.delimiter != Delimiter::Byte(b',') && look(cell, &comma) != Look::Text;
+            cells_seen += 1.0;
+            cells_read += match look(cell, &point) {
+                Look::Text if !comma_fits => 0.0,
+                // Many empty cells speak for a delimiter less than many numbers do.
+                Look::Empty => 0.5,
+                _ => 1.0,
+            };
+        }
+    });
+    let Some((usual, times)) = most_frequent(&counts) else { return 0.0 };
+    if usual < 2 {
+        return 0.0;
+    }
+    #[expect(clippy::cast_precision_loss, reason = "at most 100 records")]
+    let consistency = times as f64 / counts.len() as f64;
+    // Text columns alone must not make a fit look like none.
+    consistency * (0.05 + cells_read / cells_seen)
+}
+
+/// The most frequent of `counts`, the larger of two equally frequent ones, and how often it comes.
+pub(crate) fn most_frequent(counts: &[usize]) -> Option<(usize, usize)> {
+    let mut sorted = counts.to_vec();
+    sorted.sort_unstable();
+    sorted.chunk_by(|a, b| a == b).map(|same| (same[0], same.len())).max_by_key(|(count, times)| (*times, *count))
+}
+
+fn single_quoted(sample: &[u8], layout: Layout) -> bool {
+    let (mut single, mut double) = (0, 0);
+    for_records(sample, layout, |cells| {
+        for cell in cells.iter().map(|c| c.trim_ascii()) {
+            match cell {
+                [b'\'', .., b'\''] => single += 1,
+                [b'"', ..] => double += 1,
+                _ => {}
+            }
+        }
+    });
+    single >= 2 && double == 0
+}
+
+fn has_decimal_commas(sample: &[u8], layout: Layout) -> bool {
+    let comma = Reading::new(true, &[]);
+    let point = Reading::new(false, &[]);
+    let (mut commas, mut points) = (0, 0);
+    for_records(sample, layout, |cells| {
+        for raw in cells {
+            let cell = &raw[inner(raw, layout.quote)];
+            if cell.contains(&b',') && comma.number(cell).is_some() {
+                commas += 1;
+            } else if cell.contains(&b'.') && point.number(cell).is_some() {
+                points += 1;
+            }
+        }
+    });
+    commas > points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sniffed(text: &str) -> (Delimiter, Option<u8>, bool) {
+        let (layout, comma) = sniff(text.as_bytes(), &LoadOptions::default());
+        (layout.delimiter, layout.quote, comma)
+    }
+
+    #[test]
+    fn delimiters_are_recognised() {
+        let double = Some(b'"');
+        for (text, delimiter, comma) in [
+            ("t,x\n0,1.5\n1,2.5\n", Delimiter::Byte(b','), false),
+            ("t;x;y\n0;1,5;2\n1;2,5;3\n", Delimiter::Byte(b';'), true),
+            ("1,5;2,5;3,5\n2,5;3,5;4,5\n", Delimiter::Byte(b';'), true),
+            ("t\tx\n0\t1.5\n1\t\n", Delimiter::Byte(b'\t'), false),
+            ("a|b\n1|2\n", Delimiter::Byte(b'|'), false),
+            ("  0.0   1.5\n  1.0  12.5\n", Delimiter::Blanks, false),
+            ("1,5 2,5\n2,5 3,5\n", Delimiter::Blanks, true),
+            ("time,x\n2019-01-01 00:00,1\n2019-01-01 00:15,2\n", Delimiter::Byte(b','), false),
+            ("6, 6583, 3,VE, -0.30, 3\n6, 6583, 3,VE, -0.29, 3\n", Delimiter::Byte(b','), false),
+            (
+                "2010-11-02T03:00:13 RANGE Uralla 38014.9\n2010-11-02T03:00:50 AZ Kumsan 211.1 43.4\n",
+                Delimiter::Blanks,
+                false,
+            ),
+            ("x\n1.5\n2.5\n", Delimiter::Byte(b','), false),
+        ] {
+            assert_eq!(sniffed(text), (delimiter, double, comma), "{text}");
+        }
+    }
+
+    #[test]
+    fn single_quotes_are_quotes_where_cells_stand_in_them() {
+        let text = "'time PST', salt [psu]\n'2001-08-15 19:06:55', 27.37\n'2001-08-15 19:07:55', 27.03\n";
+        assert_eq!(sniffed(text), (Delimiter::Byte(b','), Some(b'\''), false));
+        assert_eq!(sniffed("t,note\n1,it's\n2,\n").1, Some(b'"'));
+    }
+}

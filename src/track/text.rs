@@ -1,0 +1,203 @@
+//! From a source to text: reading, unpacking, hashing, and telling the encoding.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use encoding_rs::{UTF_16BE, UTF_16LE, WINDOWS_1252};
+use flate2::read::MultiGzDecoder;
+use memchr::{memchr, memchr_iter};
+use sha2::{Digest, Sha256};
+
+use super::{Encoding, Source};
+use crate::error::{Error, Result};
+
+/// The text of a source as the tokeniser takes it: ASCII-compatible bytes, unpacked, without byte order mark.
+#[derive(Debug)]
+pub(crate) struct Text<'a> {
+    bytes: Cow<'a, [u8]>,
+    start: usize,
+    /// How the source encodes it.
+    pub(crate) encoding: Encoding,
+    /// True when the source is gzipped.
+    pub(crate) gzip: bool,
+}
+
+/// The name of a source in messages.
+pub(crate) fn path_of(source: &Source) -> PathBuf {
+    match source {
+        Source::File(path) => path.clone(),
+        Source::BuiltIn { name, .. } => PathBuf::from(name),
+    }
+}
+
+/// The bytes of a source as they are stored.
+///
+/// # Errors
+/// [`Error::Io`] when the file cannot be read, [`Error::Input`] for a folder.
+pub(crate) fn stored(source: &Source) -> Result<Cow<'_, [u8]>> {
+    match source {
+        Source::BuiltIn { bytes, .. } => Ok(Cow::Borrowed(bytes)),
+        Source::File(path) if path.is_dir() => {
+            Err(Error::input(path, "this is a folder", "name one of the files in it"))
+        }
+        Source::File(path) => std::fs::read(path).map(Cow::Owned).map_err(Error::io("read", path)),
+    }
+}
+
+/// SHA-256 in lower-case hexadecimal.
+pub(crate) fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().fold(String::with_capacity(64), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
+impl<'a> Text<'a> {
+    /// The text in `stored`, in the `wanted` encoding or in the one its bytes show.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a broken gzip stream, for bytes that are not in the wanted encoding, and for NUL bytes.
+    pub(crate) fn of(stored: &'a [u8], path: &Path, wanted: Option<Encoding>) -> Result<Self> {
+        let (bytes, gzip) = unpacked(stored, path)?;
+        let (bytes, start, encoding) = match bytes.as_ref() {
+            [0xff, 0xfe, ..] => (Cow::Owned(from_utf16(&bytes[2..], false, path)?), 0, utf16(false)),
+            [0xfe, 0xff, ..] => (Cow::Owned(from_utf16(&bytes[2..], true, path)?), 0, utf16(true)),
+            [0xef, 0xbb, 0xbf, ..] => (bytes, 3, Encoding::Utf8 { bom: true }),
+            _ => (bytes, 0, Encoding::Utf8 { bom: false }),
+        };
+        if let Some(at) = memchr(0, &bytes[start..]) {
+            return Err(Error::Input {
+                path: path.to_path_buf(),
+                line: Some(line_at(&bytes, start + at)),
+                what: "a NUL byte: this is no text, or UTF-16 without its byte order mark".into(),
+                help: "export the record as text; if it is UTF-16: iconv -f UTF-16LE -t UTF-8 OLD > NEW".into(),
+            });
+        }
+        let encoding = match encoding {
+            Encoding::Utf8 { bom } => eight_bit(&bytes[start..], bom, wanted, path)?,
+            other => other,
+        };
+        Ok(Self { bytes, start, encoding, gzip })
+    }
+
+    /// The bytes that hold records.
+    pub(crate) fn body(&self) -> &[u8] {
+        &self.bytes[self.start..]
+    }
+
+    /// What the source starts with before its first record, to be written again.
+    pub(crate) fn mark(&self) -> &'static [u8] {
+        match self.encoding {
+            Encoding::Utf8 { bom: true } => b"\xef\xbb\xbf",
+            Encoding::Utf16 { big_endian: false } => b"\xff\xfe",
+            Encoding::Utf16 { big_endian: true } => b"\xfe\xff",
+            Encoding::Utf8 { bom: false } | Encoding::Latin1 => b"",
+        }
+    }
+}
+
+/// Bytes of the tokeniser's text as characters.
+pub(crate) fn decoded(bytes: &[u8], encoding: Encoding) -> Cow<'_, str> {
+    match encoding {
+        Encoding::Latin1 => WINDOWS_1252.decode_without_bom_handling(bytes).0,
+        Encoding::Utf8 { .. } | Encoding::Utf16 { .. } => String::from_utf8_lossy(bytes),
+    }
+}
+
+fn utf16(big_endian: bool) -> Encoding {
+    Encoding::Utf16 { big_endian }
+}
+
+fn unpacked<'a>(stored: &'a [u8], path: &Path) -> Result<(Cow<'a, [u8]>, bool)> {
+    if !stored.starts_with(&[0x1f, 0x8b]) {
+        return Ok((Cow::Borrowed(stored), false));
+    }
+    let mut bytes = Vec::new();
+    MultiGzDecoder::new(stored)
+        .read_to_end(&mut bytes)
+        .map_err(|e| Error::input(path, format!("the gzip stream is broken: {e}"), "copy or fetch the file again"))?;
+    Ok((Cow::Owned(bytes), true))
+}
+
+fn from_utf16(bytes: &[u8], big_endian: bool, path: &Path) -> Result<Vec<u8>> {
+    let encoding = if big_endian { UTF_16BE } else { UTF_16LE };
+    match encoding.decode_without_bom_handling_and_without_replacement(bytes) {
+        Some(text) => Ok(text.into_owned().into_bytes()),
+        None => Err(Error::input(
+            path,
+            "it starts as UTF-16 and is not: half a character, or an odd number of bytes",
+            "save it again as UTF-8",
+        )),
+    }
+}
+
+fn eight_bit(bytes: &[u8], bom: bool, wanted: Option<Encoding>, path: &Path) -> Result<Encoding> {
+    let utf8 = Encoding::Utf8 { bom };
+    match (wanted, std::str::from_utf8(bytes)) {
+        (Some(Encoding::Latin1), _) => Ok(Encoding::Latin1),
+        (Some(Encoding::Utf16 { .. }), _) => {
+            Err(Error::input(path, "not UTF-16: the byte order mark is missing", "leave the encoding to be recognised"))
+        }
+        (_, Ok(_)) => Ok(utf8),
+        (None, Err(_)) => Ok(Encoding::Latin1),
+        (Some(Encoding::Utf8 { .. }), Err(e)) => Err(Error::Input {
+            path: path.to_path_buf(),
+            line: Some(line_at(bytes, e.valid_up_to())),
+            what: "a byte that is not UTF-8".into(),
+            help: "read it as Latin-1, or leave the encoding to be recognised".into(),
+        }),
+    }
+}
+
+fn line_at(bytes: &[u8], offset: usize) -> u64 {
+    1 + memchr_iter(b'\n', &bytes[..offset]).count() as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(stored: &[u8]) -> Result<Text<'_>> {
+        Text::of(stored, Path::new("x.csv"), None)
+    }
+
+    #[test]
+    fn the_hash_is_that_of_the_standard() {
+        // FIPS 180-2, appendix B.1.
+        assert_eq!(sha256(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    }
+
+    #[test]
+    fn byte_order_marks_tell_the_encoding_and_are_no_text() {
+        for (stored, encoding) in [
+            (&b"\xef\xbb\xbfa"[..], Encoding::Utf8 { bom: true }),
+            (b"\xff\xfea\0", utf16(false)),
+            (b"\xfe\xff\0a", utf16(true)),
+            (b"a", Encoding::Utf8 { bom: false }),
+        ] {
+            let text = text(stored).unwrap();
+            assert_eq!((text.body(), text.encoding), (&b"a"[..], encoding));
+            assert!(stored.starts_with(text.mark()));
+        }
+    }
+
+    #[test]
+    fn bytes_that_are_not_utf8_are_windows_1252() {
+        let text = text(b"\xb0C \x80").unwrap();
+        assert_eq!(text.encoding, Encoding::Latin1);
+        assert_eq!(decoded(text.body(), text.encoding), "°C €");
+    }
+
+    #[test]
+    fn what_is_no_text_is_refused_with_its_line() {
+        let e = text(b"a,b\n1,\0").unwrap_err().to_string();
+        assert!(e.starts_with("x.csv:2: a NUL byte"), "{e}");
+        assert!(text(b"\xff\xfea").unwrap_err().to_string().contains("odd number of bytes"));
+        assert!(text(b"\x1f\x8b\x08rest").unwrap_err().to_string().contains("gzip"));
+        let wanted = Some(Encoding::Utf8 { bom: false });
+        let e = Text::of(b"a\n\xb0", Path::new("x"), wanted).unwrap_err().to_string();
+        assert!(e.starts_with("x:2: "), "{e}");
+    }
+}
