@@ -1,6 +1,21 @@
 //! Numerical kernels on slices: no track, no parameters.
 
 pub mod difference;
+pub mod extrapolate;
+pub mod extremes;
+pub mod gains;
+pub mod huber;
+pub mod infill;
+pub mod integral;
+pub mod leave_one_out;
+pub mod line;
+pub mod line_of_five;
+pub mod moments;
 pub mod order;
 pub mod polyfit;
+pub mod sliding;
 pub mod smoothing;
+pub mod sorted_window;
+pub mod spline;
+pub mod student;
+pub mod window_fit;

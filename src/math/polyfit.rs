@@ -1,5 +1,7 @@
 //! Least-squares polynomials by orthogonal polynomials (Forsythe 1957): stable on any times, no normal equations.
 
+mod long;
+
 /// The highest order that any caller uses.
 pub const MAX_ORDER: usize = 8;
 
@@ -28,21 +30,8 @@ impl Polynomial {
     #[must_use]
     pub fn fit(t: &[f64], y: &[f64], order: usize) -> Self {
         assert!(!t.is_empty() && t.len() == y.len(), "a fit needs points");
-        let (first, last) = (t[0], t[t.len() - 1]);
-        let center = f64::midpoint(first, last);
-        let scale = if last > first { (last - first) / 2.0 } else { 1.0 };
-        let level = y[0];
-        let terms = order.min(MAX_ORDER).min(t.len() - 1) + 1;
-        let mut fit = Self {
-            center,
-            scale,
-            level,
-            a: [0.0; MAX_ORDER + 1],
-            b: [0.0; MAX_ORDER + 1],
-            norm: [0.0; MAX_ORDER + 1],
-            coefficients: [0.0; MAX_ORDER + 1],
-            terms,
-        };
+        let mut fit = Self::unfitted(t, y[0], order);
+        let Self { center, scale, level, terms, .. } = fit;
         let u: Vec<f64> = t.iter().map(|t| (t - center) / scale).collect();
         let mut rest: Vec<f64> = y.iter().map(|y| y - level).collect();
         let mut before = vec![0.0; u.len()];
@@ -67,6 +56,20 @@ impl Polynomial {
             fit.b[k] = b;
         }
         fit
+    }
+
+    fn unfitted(t: &[f64], level: f64, order: usize) -> Self {
+        let (first, last) = (t[0], t[t.len() - 1]);
+        Self {
+            center: f64::midpoint(first, last),
+            scale: if last > first { (last - first) / 2.0 } else { 1.0 },
+            level,
+            a: [0.0; MAX_ORDER + 1],
+            b: [0.0; MAX_ORDER + 1],
+            norm: [0.0; MAX_ORDER + 1],
+            coefficients: [0.0; MAX_ORDER + 1],
+            terms: order.min(MAX_ORDER).min(t.len() - 1) + 1,
+        }
     }
 
     /// Its value at time `t`.

@@ -1,0 +1,134 @@
+//! The most deviant of many values, one after the other, without sorting those in the middle.
+
+/// Values taken from both ends inwards: at each turn the one farthest from a centre that may have moved.
+#[derive(Debug)]
+pub struct Extremes<'a> {
+    values: &'a [f64],
+    /// Values up to `low` and from `high` on have been handed to the ends below; those between wait.
+    low: f64,
+    high: f64,
+    /// Ascending from the inside to the outside: the last is the outermost and, among equals, the earliest.
+    lower: Vec<(f64, usize)>,
+    upper: Vec<(f64, usize)>,
+}
+
+impl<'a> Extremes<'a> {
+    /// All of these values; none may be NaN.
+    #[must_use]
+    pub fn new(values: &'a [f64]) -> Self {
+        Self { values, low: f64::NEG_INFINITY, high: f64::INFINITY, lower: Vec::new(), upper: Vec::new() }
+    }
+
+    /// Takes out the value that is farthest from `center` (among equally far ones the earliest) and says at which
+    /// index it stands; none when all have been taken. `scale` is a hint at how widely those left are spread.
+    pub fn next(&mut self, center: f64, scale: f64) -> Option<usize> {
+        while (self.lower.is_empty() || self.upper.is_empty()) && self.low < self.high {
+            self.reach_inwards(center, scale);
+        }
+        if self.lower.is_empty() != self.upper.is_empty() {
+            self.share();
+        }
+        let (lower, upper) = (self.lower.last(), self.upper.last());
+        let take_lower = match (lower, upper) {
+            (None, None) => return None,
+            (Some(_), None) => true,
+            (None, Some(_)) => false,
+            (Some(&(a, i)), Some(&(b, j))) => {
+                let (below, above) = (center - a, b - center);
+                below > above || (below >= above && i < j)
+            }
+        };
+        if take_lower { self.lower.pop() } else { self.upper.pop() }.map(|(_, i)| i)
+    }
+
+    /// When all that are left stand at one end, gives the half that lies at the other side to the other end: the
+    /// centre may have moved past them all.
+    fn share(&mut self) {
+        let (mut lower, mut upper) = (std::mem::take(&mut self.lower), std::mem::take(&mut self.upper));
+        let (from, to) = if upper.is_empty() { (&mut lower, &mut upper) } else { (&mut upper, &mut lower) };
+        // Equal values stay together, so that the earliest of them comes first whichever end they are at.
+        let half = from[from.len() / 2].0;
+        let before = from.iter().take_while(|v| v.0 != half).count();
+        let inner = if before > 0 { before } else { from.iter().take_while(|v| v.0 == half).count() };
+        if inner < from.len() {
+            to.extend(from.drain(..inner));
+        }
+        sort(&mut lower, &mut upper);
+        (self.lower, self.upper) = (lower, upper);
+    }
+
+    /// Hands the outermost of the waiting values to the ends, and in the end all of them.
+    fn reach_inwards(&mut self, center: f64, scale: f64) {
+        let width = self.high - self.low;
+        let (mut low, mut high) = (center - 2.5 * scale, center + 2.5 * scale);
+        if width.is_finite() && high - low > 0.6 * width {
+            (low, high) = (self.low + 0.25 * width, self.high - 0.25 * width);
+        }
+        // Much narrower than what has been taken already, or no width at all: what waits is handed over whole.
+        let inside = low > self.low && high < self.high && low < high && width > 1e-3 * scale;
+        if !inside {
+            let middle = center.clamp(self.low, self.high);
+            (low, high) = (middle, middle);
+        }
+        let waits = |v: f64| v > self.low && v < self.high;
+        let (mut lower, mut upper) = (Vec::new(), Vec::new());
+        for (i, &v) in self.values.iter().enumerate() {
+            if v <= low && waits(v) {
+                lower.push((v, i));
+            } else if v >= high && waits(v) {
+                upper.push((v, i));
+            }
+        }
+        sort(&mut lower, &mut upper);
+        // The new ones lie further in than those still there.
+        lower.append(&mut self.lower);
+        upper.append(&mut self.upper);
+        (self.lower, self.upper) = (lower, upper);
+        (self.low, self.high) = if inside { (low, high) } else { (f64::INFINITY, f64::NEG_INFINITY) };
+    }
+}
+
+/// Puts the outermost last and, among equals, the earliest.
+fn sort(lower: &mut [(f64, usize)], upper: &mut [(f64, usize)]) {
+    rayon::join(
+        || lower.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1))),
+        || upper.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn it_equals_its_plain_twin(
+            values in prop::collection::vec(prop_oneof![-1.0..1.0, -9.0..9.0, -3.0..1e6, (-4i32..4).prop_map(f64::from)], 1..200),
+        ) {
+            let mut left: Vec<usize> = (0..values.len()).collect();
+            let mut extremes = Extremes::new(&values);
+            while !left.is_empty() {
+                let mean = left.iter().map(|&i| values[i]).sum::<f64>() / left.len() as f64;
+                let scale = left.iter().map(|&i| (values[i] - mean).abs()).sum::<f64>() / left.len() as f64;
+                let mut far = 0;
+                for at in 1..left.len() {
+                    if (values[left[at]] - mean).abs() > (values[left[far]] - mean).abs() {
+                        far = at;
+                    }
+                }
+                prop_assert_eq!(extremes.next(mean, scale), Some(left.remove(far)));
+            }
+            prop_assert_eq!(extremes.next(0.0, 1.0), None);
+        }
+    }
+
+    #[test]
+    fn equal_values_come_in_their_order() {
+        let values = [2.0, -2.0, 2.0, 0.0, -2.0, 0.0];
+        let mut extremes = Extremes::new(&values);
+        let order: Vec<usize> = std::iter::from_fn(|| extremes.next(0.0, 1.0)).collect();
+        assert_eq!(order, [0, 1, 2, 4, 3, 5]);
+    }
+}
