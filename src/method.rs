@@ -3,6 +3,7 @@
 //! Adding a method: write `method/your_method.rs` with a unit struct that implements [`Method`], and add it to
 //! [`METHODS`]. The panel, `--set`, sessions, `wildpoint methods`, the README table and the contract tests follow.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -11,11 +12,53 @@ use crate::param::{Param, Settings};
 use crate::stop::{Stop, Stopped};
 use crate::track::Series;
 
+pub mod adaptive;
+pub mod alpha_beta_gamma;
+pub mod chauvenet;
+pub mod diff_median;
+pub mod five_point;
+pub mod gesd;
+pub mod grubbs;
+pub mod hampel;
+pub mod kalman;
+pub mod matched;
+pub mod mean_window;
+pub mod median_window;
 pub mod noise;
+pub mod odd_even;
+pub mod poly_window;
+pub mod predictor;
+pub mod romanovsky;
 pub mod shared;
+pub mod template;
+mod trend;
+pub mod trend_wright;
+pub mod two_sided;
+mod window;
+pub mod wright;
 
 /// Every method, in the order in which lists show them.
-pub static METHODS: &[&dyn Method] = &[];
+pub static METHODS: &[&dyn Method] = &[
+    &wright::Wright,
+    &trend_wright::TrendWright,
+    &chauvenet::Chauvenet,
+    &romanovsky::Romanovsky,
+    &grubbs::Grubbs,
+    &gesd::Gesd,
+    &odd_even::OddEven,
+    &mean_window::MeanWindow,
+    &median_window::MedianWindow,
+    &hampel::Hampel,
+    &poly_window::PolyWindow,
+    &template::Template,
+    &five_point::FivePoint,
+    &alpha_beta_gamma::AlphaBetaGamma,
+    &adaptive::Adaptive,
+    &matched::Matched,
+    &diff_median::DiffMedian,
+    &two_sided::TwoSided,
+    &kalman::Kalman,
+];
 
 /// The method with this id.
 #[must_use]
@@ -42,12 +85,27 @@ pub fn judge_channel(
 ) -> Result<Judged, Stopped> {
     let ranges = segments(series, settings);
     let scales = noise::scales(series, &ranges, settings);
+    judge_segments(method, series, (&ranges, &scales), rate, settings, stop)
+}
+
+/// [`judge_channel`] where the segments and their scales are known.
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for the result any more.
+pub fn judge_segments(
+    method: &dyn Method,
+    series: &Series<'_>,
+    (ranges, scales): (&[Range<usize>], &[noise::Scales]),
+    rate: Option<Rate<'_>>,
+    settings: &Settings,
+    stop: &Stop,
+) -> Result<Judged, Stopped> {
     let judge = |(range, scales): (&Range<usize>, &noise::Scales)| {
         stop.check()?;
         method.judge(&Segment::of(series, range, *scales, rate), settings, stop)
     };
     // Segments are judged in any order and put together in theirs: the number of threads changes nothing.
-    let parts: Vec<Judged> = ranges.par_iter().zip(&scales).map(judge).collect::<Result<_, _>>()?;
+    let parts: Vec<Judged> = ranges.par_iter().zip(scales).map(judge).collect::<Result<_, _>>()?;
     let mut parts = parts.into_iter();
     let mut whole = parts.next().unwrap_or_default();
     parts.for_each(|part| whole.append(part));
@@ -76,10 +134,20 @@ pub trait Method: Sync {
     /// `outliers` (positions in the segment, ascending, after the analyst's decisions), NaN where it puts nothing.
     fn own_repair(&self, segment: &Segment<'_>, settings: &Settings, judged: &Judged, outliers: &[usize]) -> Vec<f64> {
         let _ = (segment, settings);
+        let own = |&i: &usize| {
+            let put_in = judged.own.get(i).copied().filter(|v| v.is_finite());
+            put_in.or_else(|| judged.expected.get(i).copied()).unwrap_or(f64::NAN)
+        };
         match self.about().own {
             Own::Remove => vec![f64::NAN; outliers.len()],
-            Own::Expected => outliers.iter().map(|&i| judged.expected.get(i).copied().unwrap_or(f64::NAN)).collect(),
+            Own::Expected => outliers.iter().map(own).collect(),
         }
+    }
+
+    /// Facts that help to choose these settings, one line each.
+    fn notes(&self, settings: &Settings) -> Vec<String> {
+        let _ = settings;
+        Vec::new()
     }
 
     /// What the user should know about these settings: that they cannot flag anything, say. One line each.
@@ -341,6 +409,43 @@ impl Judged {
         }));
     }
 
+    /// The same scores gated with another multiplier.
+    #[must_use]
+    pub fn regated(&self, y: &[f64], k: f64) -> Self {
+        let mut judged = Self {
+            expected: self.expected.clone(),
+            scale: self.scale.clone(),
+            directions: self.directions.clone(),
+            repair_code: self.repair_code.clone(),
+            own: self.own.clone(),
+            restarts: self.restarts.clone(),
+            warnings: self.warnings.clone(),
+            ..Self::default()
+        };
+        judged.gate(y, k);
+        judged
+    }
+
+    /// The part of a channel's judgement that is about one of its segments.
+    #[must_use]
+    pub fn slice(&self, range: Range<usize>) -> Cow<'_, Self> {
+        if range == (0..self.verdict.len()) {
+            return Cow::Borrowed(self);
+        }
+        let inside = |r: &&Restart| range.contains(&r.at);
+        Cow::Owned(Self {
+            verdict: part(&self.verdict, &range),
+            expected: part(&self.expected, &range),
+            tolerance: part(&self.tolerance, &range),
+            scale: part(&self.scale, &range),
+            directions: part(&self.directions, &range),
+            repair_code: part(&self.repair_code, &range),
+            own: part(&self.own, &range),
+            restarts: self.restarts.iter().filter(inside).map(|r| Restart { at: r.at - range.start, ..*r }).collect(),
+            warnings: Vec::new(),
+        })
+    }
+
     /// Appends the judgement of the next segment of the same channel.
     pub fn append(&mut self, mut next: Self) {
         let offset = self.verdict.len();
@@ -358,6 +463,10 @@ impl Judged {
             }
         }
     }
+}
+
+fn part<T: Clone>(all: &[T], range: &Range<usize>) -> Vec<T> {
+    all.get(range.clone()).map(<[T]>::to_vec).unwrap_or_default()
 }
 
 /// Equal to within this fraction of a limit is a tie (values on a grid sit exactly on limits; rounding must not

@@ -1,10 +1,16 @@
 //! Every registered method against the results of an independent implementation, sample by sample, on the records
 //! in `../shared/vectors`. Skipped, with a line that says so, where that folder is absent.
 
+#![expect(
+    clippy::expect_used,
+    clippy::print_stdout,
+    reason = "a test that cannot read its own data may say so by ending; what is skipped or measured is printed"
+)]
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use wildpoint::method::{METHODS, Method, Rate, Verdict, judge_channel};
+use wildpoint::method::{METHODS, Method, Rate, Segment, Verdict, judge_channel, noise, segments};
 use wildpoint::param::Settings;
 use wildpoint::stop::Stop;
 use wildpoint::track::Series;
@@ -61,6 +67,28 @@ fn agree(a: f64, b: f64, largest: f64) -> bool {
     (a.is_nan() && b.is_nan()) || (a - b).abs() <= 1e-9 * b.abs() + 1e-9 * largest
 }
 
+/// `max_fill` of the repairs: a longer run of outliers is removed whole.
+const MAX_FILL: usize = 20;
+
+/// The values after the own repair of the method; NaN where a sample is removed.
+fn cleaned(method: &dyn Method, series: &Series<'_>, rate: Option<Rate<'_>>, settings: &Settings) -> Vec<f64> {
+    let mut clean = series.y.to_vec();
+    let ranges = segments(series, settings);
+    let scales = noise::scales(series, &ranges, settings);
+    for (range, scales) in ranges.iter().zip(scales) {
+        let segment = Segment::of(series, range, scales, rate);
+        let part = method.judge(&segment, settings, &Stop::never()).expect("nobody stops it");
+        let outliers: Vec<usize> = (0..segment.len()).filter(|&i| part.verdict[i] == Verdict::Outlier).collect();
+        let mut own = method.own_repair(&segment, settings, &part, &outliers).into_iter();
+        for run in outliers.chunk_by(|a, b| a + 1 == *b) {
+            for (at, value) in run.iter().zip(&mut own) {
+                clean[range.start + at] = if run.len() > MAX_FILL { f64::NAN } else { value };
+            }
+        }
+    }
+    clean
+}
+
 /// Differences between what `method` says and what the file says, a line each.
 fn differences(folder: &Path, method: &dyn Method) -> Vec<String> {
     let id = method.about().id;
@@ -76,18 +104,16 @@ fn differences(folder: &Path, method: &dyn Method) -> Vec<String> {
         let rate = rates.as_ref().map(|r| Rate { t: &r.t, y: &r.y });
         let judged = judge_channel(method, &series, rate, &settings, &Stop::never()).expect("nobody stops it");
         let largest = series.y.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
-        let mut own = vec![f64::NAN; series.len()];
-        for range in wildpoint::method::segments(&series, &settings) {
-            let outliers: Vec<usize> = range.clone().filter(|&i| judged.verdict[i] == Verdict::Outlier).collect();
-            outliers.iter().for_each(|&i| own[i] = f64::NAN);
-        }
-        for (i, (verdict, p, h, _clean)) in rows.iter().enumerate() {
+        let own = cleaned(method, &series, rate, &settings);
+        for (i, (verdict, p, h, clean)) in rows.iter().enumerate() {
             let at = series.position(i);
             let got = at.map_or(Verdict::Missing, |at| judged.verdict[at]).word();
             let (got_p, got_h) = at.map_or((f64::NAN, f64::NAN), |at| (judged.expected[at], judged.tolerance[at]));
-            if got != verdict || !agree(got_p, *p, largest) || !agree(got_h, *h, largest) {
+            let got_clean = at.map_or(f64::NAN, |at| own[at]);
+            let numbers = [(got_p, *p), (got_h, *h), (got_clean, *clean)];
+            if got != verdict || numbers.iter().any(|(got, want)| !agree(*got, *want, largest)) {
                 differences.push(format!(
-                    "{id} {name} {preset} row {}: {got} {got_p} {got_h}, expected {verdict} {p} {h}",
+                    "{id} {name} {preset} row {}: {got} {got_p} {got_h} {got_clean}, expected {verdict} {p} {h} {clean}",
                     i + 1
                 ));
             }

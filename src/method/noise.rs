@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::{exceeds, zero_scale};
 use crate::math::order::{MAD_TO_SIGMA, median_in_place};
 use crate::math::{difference, smoothing};
-use crate::param::{Choice, Settings};
+use crate::param::{Choice, Kind, Settings};
 use crate::track::Series;
 
 /// With fewer differences than this in a segment, those of all segments of the channel are pooled.
@@ -36,6 +36,7 @@ pub fn scales(series: &Series<'_>, segments: &[Range<usize>], settings: &Setting
     let sigmas = match choice(settings, "sigma") {
         None => vec![0.0; segments.len()],
         Some(Choice::Number(x)) => vec![x; segments.len()],
+        Some(Choice::Word(_)) if !by_noise(settings) => vec![0.0; segments.len()],
         Some(Choice::Word("spline")) => by_spline(series, segments),
         Some(Choice::Word(_)) => by_difference(series, segments),
     };
@@ -53,6 +54,12 @@ pub fn scales(series: &Series<'_>, segments: &[Range<usize>], settings: &Setting
         Scales { sigma, floor }
     })
     .collect()
+}
+
+/// False when the method measures a scale of its own and knows none of the words that ask for one of these.
+fn by_noise(settings: &Settings) -> bool {
+    let knows = |kind| matches!(kind, Kind::RealOr { words, .. } if words.contains(&"difference"));
+    settings.params().iter().any(|p| p.key == "sigma" && knows(p.kind))
 }
 
 fn choice(settings: &Settings, key: &str) -> Option<Choice> {

@@ -1,6 +1,6 @@
 //! Parameters that several methods share, each declared once.
 
-use crate::param::{Kind, Param, Step, Value, always};
+use crate::param::{Kind, Param, Settings, Step, Value, always};
 
 /// The multiplier of the scale; sections give it their own default.
 pub const K: Param = Param {
@@ -43,6 +43,185 @@ pub const SIGMA: Param = Param {
     unit: "channel units",
     kind: Kind::RealOr { words: &["auto", "difference", "spline"], min: f64::MIN_POSITIVE, max: 1e300 },
     default: Value::Word("auto"),
+    paper: None,
+    matters: always,
+};
+
+/// The family of the criteria that judge a whole segment at once.
+pub const WHOLE_SEGMENT: &str = "whole segment";
+
+/// The family of the methods that compare a sample with a window around it.
+pub const SLIDING_WINDOW: &str = "sliding window";
+
+/// How many samples a window holds.
+pub const WINDOW: Param = Param {
+    key: "window",
+    help: "samples in the window around the judged one; even lengths reach one further back",
+    unit: "samples",
+    kind: Kind::Whole { min: 3, max: 1001, step: 2 },
+    default: Value::Whole(21),
+    paper: Some(Value::Whole(10)),
+    matters: always,
+};
+
+/// How a window's scale is found.
+pub const SCALE: Param = Param {
+    key: "scale",
+    help: "mad: 1.4826 * median |x - median(x)|, robust; rms: root mean square about the expected value [003]",
+    unit: "",
+    kind: Kind::Choice(&["mad", "rms"]),
+    default: Value::Word("mad"),
+    paper: Some(Value::Word("rms")),
+    matters: always,
+};
+
+/// Whether flagged samples are replaced before the window moves on.
+pub const FEEDBACK: Param = Param {
+    key: "feedback",
+    help: "a flagged sample is replaced by its expected value before the window moves on",
+    unit: "",
+    kind: Kind::Switch,
+    default: Value::Switch(true),
+    paper: None,
+    matters: always,
+};
+
+/// What windows hold beyond the ends.
+pub const EDGE: Param = Param {
+    key: "edge",
+    help: "beyond the ends of a segment: shrink the window, reflect the samples about the end one, or zeros [003]",
+    unit: "",
+    kind: Kind::Choice(&["shrink", "reflect", "zero"]),
+    default: Value::Word("shrink"),
+    paper: Some(Value::Word("zero")),
+    matters: always,
+};
+
+/// Whether the local slope is taken off first.
+pub const DETREND: Param = Param {
+    key: "detrend",
+    help: "slope: take a local-slope baseline off first, so that the scale measures noise and not the track's slope",
+    unit: "",
+    kind: Kind::Choice(&["slope", "off"]),
+    default: Value::Word("slope"),
+    paper: Some(Value::Word("off")),
+    matters: always,
+};
+
+/// The bound on the scales of single windows.
+pub const NOISE_FLOOR: Param = Param {
+    key: "noise_floor",
+    help: "pooled: no window's scale is below the median of the scales of all windows of the segment",
+    unit: "",
+    kind: Kind::Choice(&["pooled", "off"]),
+    default: Value::Word("pooled"),
+    paper: Some(Value::Word("off")),
+    matters: always,
+};
+
+/// Order of the trend that whole-segment criteria take off.
+pub const TREND_ORDER: Param = Param {
+    key: "trend_order",
+    help: "order of the least-squares trend that is taken off first (0: only the mean)",
+    unit: "",
+    kind: Kind::Whole { min: 0, max: 8, step: 1 },
+    default: Value::Whole(2),
+    paper: None,
+    matters: always,
+};
+
+/// Whether the trend is fitted again on the survivors of a pass.
+pub const REFIT: Param = Param {
+    key: "refit",
+    help: "fit the trend again after each pass, on the samples that survived it ([002] fits once)",
+    unit: "",
+    kind: Kind::Switch,
+    default: Value::Switch(true),
+    paper: Some(Value::Switch(false)),
+    matters: refit_matters,
+};
+
+/// How often whole-segment criteria go over the survivors.
+pub const MAX_PASSES: Param = Param {
+    key: "max_passes",
+    help: "passes over the survivors at most (0: until nothing new is found)",
+    unit: "passes",
+    kind: Kind::Whole { min: 0, max: 1000, step: 1 },
+    default: Value::Whole(0),
+    paper: Some(Value::Whole(3)),
+    matters: always,
+};
+
+/// Length of the blocks that have a trend of their own.
+pub const BLOCK: Param = Param {
+    key: "block",
+    help: "consecutive blocks of this many samples, each with a trend of its own (0: the whole segment)",
+    unit: "samples",
+    kind: Kind::Whole { min: 0, max: 100_000_000, step: 10 },
+    default: Value::Whole(0),
+    paper: None,
+    matters: always,
+};
+
+/// The significance level of a test.
+pub const ALPHA: Param = Param {
+    key: "alpha",
+    help: "significance level of the test",
+    unit: "",
+    kind: Kind::Real { min: 1e-9, max: 0.5, step: Step::Times(1.122) },
+    default: Value::Real(0.01),
+    paper: None,
+    matters: always,
+};
+
+/// A mean is not changed by fitting it again, and after the only pass there is nothing to fit.
+fn refit_matters(settings: &Settings) -> bool {
+    settings.whole(TREND_ORDER.key) > 0 && settings.whole(MAX_PASSES.key) != 1
+}
+
+/// How many outliers in a row a predictor stands; sections give it their own default.
+pub const MAX_RUN: Param = Param {
+    key: "max_run",
+    help: "more outliers in a row than this lose the model: it starts again at the first of them (0: never)",
+    unit: "samples",
+    kind: Kind::Whole { min: 0, max: 1000, step: 1 },
+    default: Value::Whole(12),
+    paper: Some(Value::Whole(5)),
+    matters: always,
+};
+
+/// The first-difference plausibility check of the predictors.
+pub const MAX_RATE: Param = Param {
+    key: "max_rate",
+    help: "a faster change since the last accepted sample is an outlier at once (0: no such check)",
+    unit: "channel units per second",
+    kind: Kind::Real { min: 0.0, max: 1e300, step: Step::Add(1.0) },
+    default: Value::Real(0.0),
+    paper: None,
+    matters: always,
+};
+
+/// Whether predictors judge the beginning of a segment by a run backwards.
+pub const LOOK_BACK: Param = Param {
+    key: "look_back",
+    help: "judge the first start group and all before it by a run over the reversed segment",
+    unit: "",
+    kind: Kind::Switch,
+    default: Value::Switch(true),
+    paper: Some(Value::Switch(false)),
+    matters: always,
+};
+
+/// Limit of the fourth difference of a start group in noise scales: m1 of eq. (21) of \[001\].
+pub const START_LIMIT: f64 = 17.0;
+
+/// The gate of innovation tests.
+pub const C: Param = Param {
+    key: "c",
+    help: "gate: flagged when the innovation exceeds c of its deviations ([004]: 2 or 3, or 3 to 5)",
+    unit: "scales",
+    kind: Kind::Real { min: 0.5, max: 1000.0, step: Step::Add(0.1) },
+    default: Value::Real(3.0),
     paper: None,
     matters: always,
 };

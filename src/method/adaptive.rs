@@ -1,0 +1,183 @@
+//! Five-point prediction with an adaptive limit: section 4 of the methods page, \[001\] eqs. (27)-(34).
+
+use super::predictor::{self, Answer, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
+use super::{About, Judged, Method, Own, Segment, reaches, shared};
+use crate::math::huber::{HuberScale, Update};
+use crate::math::line_of_five::LineOfFive;
+use crate::param::{Kind, Param, Settings, Step, Value, always};
+use crate::stop::{Stop, Stopped};
+
+/// The line through the last five samples, judged by the Huber scale of the latest prediction residuals.
+pub struct Adaptive;
+
+static PARAMS: &[Param] = &[
+    K,
+    WINDOW,
+    HUBER_C,
+    UPDATE,
+    shared::SIGMA,
+    shared::MAX_RUN,
+    shared::MAX_RATE,
+    shared::LOOK_BACK,
+    shared::MAX_GAP,
+    shared::FLOOR,
+];
+
+const K: Param = shared::K.with_default(Value::Real(3.5)).with_paper(Some(Value::Real(3.0)));
+
+const WINDOW: Param = Param {
+    key: "window",
+    help: "how many of the latest prediction residuals make the scale",
+    unit: "samples",
+    kind: Kind::Whole { min: 16, max: 100, step: 1 },
+    default: Value::Whole(30),
+    paper: Some(Value::Whole(20)),
+    matters: always,
+};
+
+const HUBER_C: Param = Param {
+    key: "huber_c",
+    help: "residuals beyond this many scales are held back from the scale; k = c gives the printed decision rule, \
+           with about 10 % false alarms",
+    unit: "scales",
+    kind: Kind::Real { min: 0.5, max: 5.0, step: Step::Add(0.1) },
+    default: Value::Real(1.5),
+    paper: None,
+    matters: always,
+};
+
+const UPDATE: Param = Param {
+    key: "update",
+    help: "winsor: residuals beyond c scales count as c scales; printed: eq. (34), biased low, it freezes (1.5 to 2 % \
+           false alarms on clean noise)",
+    unit: "",
+    kind: Kind::Choice(&["winsor", "printed"]),
+    default: Value::Word("winsor"),
+    paper: Some(Value::Word("printed")),
+    matters: always,
+};
+
+static ABOUT: About = About {
+    id: "adaptive",
+    name: "five-point prediction with adaptive limit",
+    family: "real-time predictor",
+    source: "[001] section 3, eqs. (27)-(34)",
+    advice: "Noise that changes along the track, in real time: the limit follows the latest residuals. [001] finds it \
+             most effective on patches and best where isolated, constant and varying outliers mix; on its own \
+             experiment as we simulate it that does not hold. Wants window good samples before the scale is its own. \
+             A patch raises the scale it is judged by, so the end of a long one is missed.",
+    params: PARAMS,
+    own: Own::Expected,
+    needs_rate: false,
+};
+
+impl Method for Adaptive {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
+        if segment.sigma <= 0.0 {
+            return Ok(Judged::unchecked(segment.len()));
+        }
+        let rules = Rules::of(settings);
+        let model = || AdaptiveLine::new(segment.sigma, segment.floor, settings, &rules);
+        predictor::judge_both_ways(model, segment, rules.max_run, rules.look_back, stop)
+    }
+
+    fn warnings(&self, settings: &Settings) -> Vec<String> {
+        let mut lines = predictor::cannot_flag(&Rules::of(settings));
+        let (k, c) = (settings.real(shared::K.key), settings.real(HUBER_C.key));
+        if k <= c {
+            lines.push(format!("k = {k} is not above huber_c = {c}: about one good sample in ten is flagged"));
+        }
+        lines
+    }
+}
+
+/// Squared deviation of a five-point prediction residual on even steps: 1 + (16 + 1 + 4 + 25 + 64) / 100.
+const EVEN_VARIANCE: f64 = 2.1;
+
+/// The model: fed sample by sample by a [`predictor::Engine`].
+#[derive(Debug, Clone)]
+pub struct AdaptiveLine {
+    line: LineOfFive,
+    sigma: f64,
+    k: f64,
+    rate: RateLimit,
+    scale: HuberScale,
+    /// What the residual of the sample predicted last is multiplied by to count as one on even steps.
+    to_even: f64,
+    prediction: Prediction,
+}
+
+impl AdaptiveLine {
+    /// A model that starts from the noise scale `sigma`; no scale it finds is below `floor`. Both in the units of
+    /// the channel.
+    #[must_use]
+    pub fn new(sigma: f64, floor: f64, settings: &Settings, rules: &Rules) -> Self {
+        let update = if settings.word(UPDATE.key) == "printed" { Update::Printed } else { Update::Winsor };
+        let even = EVEN_VARIANCE.sqrt();
+        Self {
+            line: LineOfFive::default(),
+            sigma,
+            k: rules.k,
+            rate: RateLimit::new(rules.max_rate),
+            scale: HuberScale::new(
+                settings.whole(WINDOW.key),
+                settings.real(HUBER_C.key),
+                update,
+                sigma * even,
+                floor * even,
+            ),
+            to_even: 1.0,
+            prediction: Prediction { expected: f64::NAN, tolerance: f64::NAN },
+        }
+    }
+}
+
+impl Model for AdaptiveLine {
+    type Sample = f64;
+    type Prediction = Prediction;
+
+    fn group(&self) -> usize {
+        5
+    }
+
+    fn passed_over(&self, group: &[(f64, f64)]) -> usize {
+        passed_over_by_fourth(group, shared::START_LIMIT * self.sigma)
+    }
+
+    fn start(&mut self, group: &[(f64, f64)]) {
+        for &(t, y) in group {
+            self.line.push(t, y);
+            self.rate.accept(t, y);
+        }
+        self.scale.reset();
+    }
+
+    #[inline]
+    fn predict(&mut self, t: f64, _: usize, _: usize) {
+        let (expected, variance) = self.line.at(t);
+        self.to_even = (EVEN_VARIANCE / (1.0 + variance)).sqrt();
+        self.prediction = Prediction { expected, tolerance: self.k * self.scale.advance() / self.to_even };
+    }
+
+    fn prediction(&self) -> &Prediction {
+        &self.prediction
+    }
+
+    #[inline]
+    fn answer(&mut self, t: f64, y: f64) -> Answer {
+        let Prediction { expected, tolerance } = self.prediction;
+        let residual = y - expected;
+        self.scale.push(residual * self.to_even);
+        if reaches(residual.abs(), tolerance) || self.rate.broken(t, y) {
+            self.line.push(t, expected);
+            return Answer::Rejects;
+        }
+        self.line.push(t, y);
+        self.rate.accept(t, y);
+        Answer::Accepts
+    }
+}

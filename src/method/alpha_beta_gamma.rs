@@ -1,0 +1,188 @@
+//! Alpha-beta-gamma filter: section 4 of the methods page, \[001\] eqs. (23)-(26).
+
+use super::predictor::{self, Answer, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
+use super::{About, Judged, Method, Own, Segment, reaches, shared};
+use crate::math::gains::{self, Gains};
+use crate::param::{Kind, Param, Settings, Step, Value, always};
+use crate::stop::{Stop, Stopped};
+
+mod spread;
+
+use spread::Spread;
+
+/// A constant-acceleration tracker with growing memory, then steady gains.
+pub struct AlphaBetaGamma;
+
+static PARAMS: &[Param] =
+    &[K, ALPHA, shared::SIGMA, shared::MAX_RUN, shared::MAX_RATE, shared::LOOK_BACK, shared::MAX_GAP, shared::FLOOR];
+
+const K: Param = shared::K.with_default(Value::Real(3.0));
+
+const ALPHA: Param = Param {
+    key: "alpha",
+    help: "steady gain of the position: larger follows manoeuvres, smaller smooths and finds smaller outliers",
+    unit: "",
+    kind: Kind::Real { min: 0.02, max: 0.95, step: Step::Add(0.01) },
+    default: Value::Real(0.4),
+    paper: None,
+    matters: always,
+};
+
+static ABOUT: About = About {
+    id: "alpha-beta-gamma",
+    name: "alpha-beta-gamma filter",
+    family: "real-time predictor",
+    source: "[001] section 3, eqs. (23)-(26)",
+    advice: "Accelerating tracks in real time: it predicts a parabola, so it needs slower sampling than five-point. \
+             [001] finds it best of the real-time methods on outliers that vary from sample to sample. Wants about a \
+             dozen good samples until its memory has grown. Outliers below k / sqrt(1 - alpha) sigma are missed, and \
+             a manoeuvre faster than the gains follow is flagged.",
+    params: PARAMS,
+    own: Own::Expected,
+    needs_rate: false,
+};
+
+impl Method for AlphaBetaGamma {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
+        if segment.sigma <= 0.0 {
+            return Ok(Judged::unchecked(segment.len()));
+        }
+        let rules = Rules::of(settings);
+        let model = || Tracker::new(segment.sigma, settings.real(ALPHA.key), &rules);
+        predictor::judge_both_ways(model, segment, rules.max_run, rules.look_back, stop)
+    }
+
+    fn warnings(&self, settings: &Settings) -> Vec<String> {
+        predictor::cannot_flag(&Rules::of(settings))
+    }
+}
+
+/// The model: fed sample by sample by a [`predictor::Engine`].
+#[derive(Debug, Clone)]
+pub struct Tracker {
+    sigma: f64,
+    k: f64,
+    alpha: f64,
+    rate: RateLimit,
+    t: f64,
+    /// Position, velocity and acceleration: estimated, or predicted between `predict` and `answer`.
+    state: [f64; 3],
+    spread: Spread,
+    /// Samples taken in, those of the exact parabola included.
+    used: usize,
+    /// Step to the sample that was predicted last.
+    step: f64,
+    /// Gains for that sample.
+    gains: Gains,
+    /// Steady already.
+    steady: bool,
+    prediction: Prediction,
+}
+
+impl Tracker {
+    /// A model with the steady gain `alpha` that judges by the noise scale `sigma`, in the units of the channel.
+    #[must_use]
+    pub fn new(sigma: f64, alpha: f64, rules: &Rules) -> Self {
+        Self {
+            sigma,
+            k: rules.k,
+            alpha,
+            rate: RateLimit::new(rules.max_rate),
+            t: f64::NAN,
+            state: [0.0; 3],
+            spread: Spread::default(),
+            used: 0,
+            step: f64::NAN,
+            gains: gains::steady(alpha),
+            steady: false,
+            prediction: Prediction { expected: f64::NAN, tolerance: f64::NAN },
+        }
+    }
+
+    #[inline]
+    fn coast(&mut self, t: f64) {
+        let h = t - self.t;
+        let [p, u, s] = self.state;
+        self.state = [p + u * h + 0.5 * s * h * h, u + s * h, s];
+        (self.t, self.step) = (t, h);
+        if !self.steady {
+            self.gains = gains::at(self.used + 1, self.alpha);
+            self.steady = self.gains == gains::steady(self.alpha);
+        }
+    }
+
+    #[inline]
+    fn update(&mut self, y: f64) {
+        let r = y - self.state[0];
+        let gain = [self.gains.a, self.gains.b / self.step, self.gains.g / (self.step * self.step)];
+        for (x, k) in self.state.iter_mut().zip(gain) {
+            *x += k * r;
+        }
+        self.spread.step(self.step, Some(gain), self.steady);
+        self.used += 1;
+    }
+}
+
+impl Model for Tracker {
+    type Sample = f64;
+    type Prediction = Prediction;
+
+    fn group(&self) -> usize {
+        5
+    }
+
+    fn passed_over(&self, group: &[(f64, f64)]) -> usize {
+        passed_over_by_fourth(group, shared::START_LIMIT * self.sigma)
+    }
+
+    fn start(&mut self, group: &[(f64, f64)]) {
+        let &[first, second, third, ref rest @ ..] = group else { return };
+        // The exact parabola through three samples, at the third, by divided differences.
+        let (x1, x2) = (first.0 - third.0, second.0 - third.0);
+        let (v1, v2) = ((first.1 - third.1) / x1, (second.1 - third.1) / x2);
+        let half = (v1 - v2) / (x1 - x2);
+        self.state = [third.1, v2 - half * x2, 2.0 * half];
+        self.spread = Spread::of_parabola(x1, x2);
+        self.t = third.0;
+        self.used = 3;
+        self.steady = false;
+        for &(t, y) in rest {
+            self.coast(t);
+            self.update(y);
+        }
+        group.iter().for_each(|&(t, y)| self.rate.accept(t, y));
+    }
+
+    #[inline]
+    fn predict(&mut self, t: f64, lost: usize, _: usize) {
+        self.coast(t);
+        let a = self.gains.a;
+        let spread = if lost > 0 {
+            // The steady gains know nothing of a longer step: the spread they imply has grown over it.
+            (1.0 + self.spread.position_after(self.step).max(a / (1.0 - a))).sqrt()
+        } else {
+            1.0 / (1.0 - a).sqrt()
+        };
+        self.prediction = Prediction { expected: self.state[0], tolerance: self.k * self.sigma * spread };
+    }
+
+    fn prediction(&self) -> &Prediction {
+        &self.prediction
+    }
+
+    #[inline]
+    fn answer(&mut self, t: f64, y: f64) -> Answer {
+        let Prediction { expected, tolerance } = self.prediction;
+        if reaches((y - expected).abs(), tolerance) || self.rate.broken(t, y) {
+            self.spread.step(self.step, None, self.steady);
+            return Answer::Rejects;
+        }
+        self.update(y);
+        self.rate.accept(t, y);
+        Answer::Accepts
+    }
+}

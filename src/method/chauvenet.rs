@@ -1,0 +1,42 @@
+//! Chauvenet's criterion: a tolerance that grows with the number of samples.
+
+use super::trend::{self, AtOnce, Criterion, normal_at};
+use super::{About, Judged, Method, Own, Segment, shared};
+use crate::param::{Param, Settings};
+use crate::stop::{Stop, Stopped};
+
+/// The method `chauvenet` of section 2 of the methods page.
+#[derive(Debug, Clone, Copy)]
+pub struct Chauvenet;
+
+static PARAMS: [Param; 6] =
+    [shared::TREND_ORDER, shared::REFIT, shared::MAX_PASSES, shared::BLOCK, shared::MAX_GAP, shared::FLOOR];
+
+static ABOUT: About = About {
+    id: "chauvenet",
+    name: "Chauvenet",
+    family: shared::WHOLE_SEGMENT,
+    source: "[001] s.2",
+    advice: "Flags whatever a normal sample of this size would hold less than half a time: k grows with the number of samples, from 1.96 for 10 to 3.48 for 1000. Cheap, for much data with few patches and no wild points that vary with time. On clean data it flags about one sample in every second block.",
+    params: &PARAMS,
+    own: Own::Remove,
+    needs_rate: false,
+};
+
+impl Method for Chauvenet {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
+        trend::judge(&criterion(settings), segment, settings, stop)
+    }
+
+    fn warnings(&self, settings: &Settings) -> Vec<String> {
+        trend::warnings(&criterion(settings), settings)
+    }
+}
+
+fn criterion(_: &Settings) -> impl Criterion {
+    AtOnce { groups: 1, multiplier: normal_at }
+}

@@ -1,0 +1,114 @@
+//! Five-point linear prediction: section 4 of the methods page, \[001\] section 3.
+
+use super::predictor::{self, Answer, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
+use super::{About, Judged, Method, Own, Segment, reaches, shared};
+use crate::math::line_of_five::LineOfFive;
+use crate::param::{Param, Settings, Value};
+use crate::stop::{Stop, Stopped};
+
+/// The least-squares line through the last five samples, extended to the next.
+pub struct FivePoint;
+
+static PARAMS: &[Param] =
+    &[K, shared::SIGMA, shared::MAX_RUN, shared::MAX_RATE, shared::LOOK_BACK, shared::MAX_GAP, shared::FLOOR];
+
+const K: Param = shared::K.with_default(Value::Real(3.0));
+
+static ABOUT: About = About {
+    id: "five-point",
+    name: "five-point linear prediction",
+    family: "real-time predictor",
+    source: "[001] section 3, eqs. (20)-(22)",
+    advice: "Isolated outliers in real time, at the least cost: [001] calls it the best choice for them and better \
+             than alpha-beta-gamma. Wants five good samples to start and sampling fast enough that five of them lie \
+             on a line to within the noise. A patch shorter than max_run is found as long as the track stays \
+             straight over it; outliers below about 4 sigma that vary from sample to sample are missed.",
+    params: PARAMS,
+    own: Own::Expected,
+    needs_rate: false,
+};
+
+impl Method for FivePoint {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
+        if segment.sigma <= 0.0 {
+            return Ok(Judged::unchecked(segment.len()));
+        }
+        let rules = Rules::of(settings);
+        let model = || Line::new(segment.sigma, &rules);
+        predictor::judge_both_ways(model, segment, rules.max_run, rules.look_back, stop)
+    }
+
+    fn warnings(&self, settings: &Settings) -> Vec<String> {
+        predictor::cannot_flag(&Rules::of(settings))
+    }
+}
+
+/// The model: fed sample by sample by a [`predictor::Engine`].
+#[derive(Debug, Clone)]
+pub struct Line {
+    line: LineOfFive,
+    sigma: f64,
+    k: f64,
+    rate: RateLimit,
+    prediction: Prediction,
+}
+
+impl Line {
+    /// A model that judges by the noise scale `sigma`, in the units of the channel.
+    #[must_use]
+    pub fn new(sigma: f64, rules: &Rules) -> Self {
+        Self {
+            line: LineOfFive::default(),
+            sigma,
+            k: rules.k,
+            rate: RateLimit::new(rules.max_rate),
+            prediction: Prediction { expected: f64::NAN, tolerance: f64::NAN },
+        }
+    }
+}
+
+impl Model for Line {
+    type Sample = f64;
+    type Prediction = Prediction;
+
+    fn group(&self) -> usize {
+        5
+    }
+
+    fn passed_over(&self, group: &[(f64, f64)]) -> usize {
+        passed_over_by_fourth(group, shared::START_LIMIT * self.sigma)
+    }
+
+    fn start(&mut self, group: &[(f64, f64)]) {
+        for &(t, y) in group {
+            self.line.push(t, y);
+            self.rate.accept(t, y);
+        }
+    }
+
+    #[inline]
+    fn predict(&mut self, t: f64, _: usize, _: usize) {
+        let (expected, variance) = self.line.at(t);
+        self.prediction = Prediction { expected, tolerance: self.k * self.sigma * (1.0 + variance).sqrt() };
+    }
+
+    fn prediction(&self) -> &Prediction {
+        &self.prediction
+    }
+
+    #[inline]
+    fn answer(&mut self, t: f64, y: f64) -> Answer {
+        let Prediction { expected, tolerance } = self.prediction;
+        if reaches((y - expected).abs(), tolerance) || self.rate.broken(t, y) {
+            self.line.push(t, expected);
+            return Answer::Rejects;
+        }
+        self.line.push(t, y);
+        self.rate.accept(t, y);
+        Answer::Accepts
+    }
+}

@@ -1,0 +1,111 @@
+//! The generalised extreme studentised deviate test (Rosner 1983): Grubbs' test that many outliers do not mask.
+
+use super::trend::{self, Criterion, Critical, Limit, Pass, Removals, Survivors};
+use super::{About, Judged, Method, Own, Segment, exceeds, shared};
+use crate::math::moments::Moments;
+use crate::param::{Kind, Param, Settings, Step, Value, always};
+use crate::stop::{Stop, Stopped};
+
+/// The method `gesd` of section 2 of the methods page (beyond the documents; Rosner 1983).
+#[derive(Debug, Clone, Copy)]
+pub struct Gesd;
+
+const MAX_FRACTION: Param = Param {
+    key: "max_fraction",
+    help: "largest part of the samples of a pass that may be outliers",
+    unit: "",
+    kind: Kind::Real { min: 0.001, max: 0.5, step: Step::Add(0.05) },
+    default: Value::Real(0.35),
+    paper: None,
+    matters: always,
+};
+
+static PARAMS: [Param; 8] = [
+    shared::ALPHA.with_default(Value::Real(0.05)),
+    MAX_FRACTION,
+    shared::TREND_ORDER,
+    shared::REFIT.with_paper(None),
+    shared::MAX_PASSES.with_paper(None),
+    shared::BLOCK,
+    shared::MAX_GAP,
+    shared::FLOOR,
+];
+
+static ABOUT: About = About {
+    id: "gesd",
+    name: "generalised ESD (Rosner)",
+    family: shared::WHOLE_SEGMENT,
+    source: "beyond (Rosner 1983)",
+    advice: "Takes out the most deviant samples up to max_fraction of all and flags those up to the last that exceeds \
+             its critical value, so that many wild points cannot mask each other as they do in grubbs. alpha is the \
+             chance of one false alarm in a whole block. Wants 25 samples and a trend that follows the data; of wild \
+             points that vary with time it misses those inside the noise.",
+    params: &PARAMS,
+    own: Own::Remove,
+    needs_rate: false,
+};
+
+impl Method for Gesd {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
+        trend::judge(&criterion(settings), segment, settings, stop)
+    }
+
+    fn warnings(&self, settings: &Settings) -> Vec<String> {
+        trend::warnings(&criterion(settings), settings)
+    }
+}
+
+fn criterion(settings: &Settings) -> Rosner {
+    let critical = Critical::new(settings.real(shared::ALPHA.key), true);
+    Rosner { critical, max_fraction: settings.real(MAX_FRACTION.key) }
+}
+
+struct Rosner {
+    critical: Critical,
+    max_fraction: f64,
+}
+
+impl Criterion for Rosner {
+    fn needed(&self, n: usize) -> f64 {
+        self.critical.at(n)
+    }
+
+    fn pass(&self, survivors: &Survivors<'_>, stop: &Stop) -> Result<Pass, Stopped> {
+        let n = survivors.residual.len();
+        #[expect(
+            clippy::cast_precision_loss,
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "0..n"
+        )]
+        let most = ((self.max_fraction * n as f64) as usize).max(1);
+        let mut removals = Removals::new(survivors.residual);
+        // Before each removal the moments, and with it the deviation of what is removed.
+        let mut tested: Vec<(Moments, f64)> = Vec::with_capacity(most);
+        while tested.len() < most && removals.len() >= 3 {
+            stop.check_at(tested.len())?;
+            let before = removals.left;
+            let Some(deviation) = removals.take() else { break };
+            tested.push((before, deviation));
+        }
+        let scale = |left: &Moments| survivors.bounded(left.deviation());
+        // Critical values grow with the sample: what does not exceed the smallest needs no other.
+        let smallest = self.critical.at(n - tested.len().saturating_sub(1));
+        let significant = |(removed, (left, deviation)): &(usize, &(Moments, f64))| {
+            let scale = scale(left);
+            scale > 0.0
+                && exceeds(*deviation, smallest * scale)
+                && exceeds(*deviation, self.critical.at(n - removed) * scale)
+        };
+        let last = tested.iter().enumerate().rev().find(significant).map_or(0, |(removed, _)| removed + 1);
+        let left = tested.get(last).map_or(removals.left, |(left, _)| *left);
+        let scale = scale(&left);
+        let tolerance = if n - last >= 3 { self.critical.at(n - last) * scale } else { 0.0 };
+        removals.taken.truncate(last);
+        Ok(Pass { flagged: removals.taken, groups: vec![Some(Limit { mean: left.mean, scale, tolerance })] })
+    }
+}

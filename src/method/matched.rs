@@ -1,0 +1,153 @@
+//! Matched measurements: section 4 of the methods page, \[001\] eqs. (35)-(41).
+
+use std::ops::Range;
+
+use super::{About, Judged, Method, Own, Segment, shared};
+use crate::math::order::{mad_scale_in_place, median};
+use crate::math::{integral, leave_one_out};
+use crate::param::{Choice, Kind, Param, Settings, Value, always};
+use crate::stop::{Stop, Stopped};
+
+/// Carries the neighbours' values to the sample by the integral of a second channel that measures the rate.
+pub struct Matched;
+
+static PARAMS: &[Param] = &[K, WINDOW, SIGMA, shared::MAX_GAP, shared::FLOOR];
+
+const K: Param = shared::K.with_default(Value::Real(3.0));
+
+const WINDOW: Param = Param {
+    key: "window",
+    help: "neighbours that are carried to each sample; patches up to about window/2 - 4 are seen",
+    unit: "samples",
+    kind: Kind::Whole { min: 4, max: 1001, step: 2 },
+    default: Value::Whole(31),
+    paper: None,
+    matters: always,
+};
+
+const SIGMA: Param = Param {
+    key: "sigma",
+    help: "noise scale: auto (1.4826 MAD of value - expected over the segment), or a number",
+    unit: "channel units",
+    kind: Kind::RealOr { words: &["auto"], min: f64::MIN_POSITIVE, max: 1e300 },
+    default: Value::Word("auto"),
+    paper: None,
+    matters: always,
+};
+
+static ABOUT: About = About {
+    id: "matched",
+    name: "matched measurements",
+    family: "real-time predictor",
+    source: "[001] section 3, eqs. (35)-(41)",
+    advice: "A channel with a second one that measures its rate, as range with Doppler: it separates what the \
+             measurement did wrong from what the target did, so manoeuvres are never flagged. [001] finds it next to \
+             adaptive, with the fewest false alarms, at a higher cost. Wants a clean rate over the whole segment; \
+             misses patches of more than about window/2 - 4 samples, and errors that both channels share.",
+    params: PARAMS,
+    own: Own::Expected,
+    needs_rate: true,
+};
+
+impl Method for Matched {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
+        let n = segment.len();
+        let Some(rate) = segment.rate else {
+            let mut judged = Judged::unchecked(n);
+            judged.warnings.push("matched needs a channel that measures the rate: name it with --rate".into());
+            return Ok(judged);
+        };
+        stop.check()?;
+        let integral = integral::to_times(rate.t, rate.y, segment.t);
+        // R(t_k) carried to t_i is (R - I)(t_k) + I(t_i): one sliding median of R - I serves all samples.
+        let rest: Vec<f64> = segment.y.iter().zip(&integral).map(|(y, [sum, rest])| (y - sum) - rest).collect();
+        let size = settings.whole(WINDOW.key);
+        let mut expected = leave_one_out::medians(&rest, |i| window(i, size, n), LEAST, |i| stop.check_at(i))?;
+        for (p, [sum, rest]) in expected.iter_mut().zip(&integral) {
+            *p = (*p + sum) + rest;
+        }
+        let sigma = match settings.choice(SIGMA.key) {
+            Choice::Number(sigma) => sigma,
+            Choice::Word(_) => residual_scale(segment, &expected),
+        };
+        let scale = expected.iter().map(|p| if p.is_nan() { f64::NAN } else { sigma }).collect();
+        Ok(Judged::gated(segment.y, expected, scale, settings.real(shared::K.key)))
+    }
+
+    fn gate(&self, _: &Settings) -> Option<&'static str> {
+        Some(shared::K.key)
+    }
+
+    fn warnings(&self, settings: &Settings) -> Vec<String> {
+        let window = settings.whole(WINDOW.key);
+        if window < 11 {
+            vec![format!("window = {window}: patches of two or more samples are not seen")]
+        } else {
+            Vec::new()
+        }
+    }
+}
+
+/// With fewer neighbours than this a sample stays unchecked.
+const LEAST: usize = 3;
+
+/// The part of the window around `i` that lies inside the segment; with fewer than 3 samples, the 3 nearest the end.
+fn window(i: usize, size: usize, n: usize) -> Range<usize> {
+    let half = size / 2;
+    let to = i - half.min(i)..(i + size - half).min(n);
+    if to.len() >= LEAST {
+        to
+    } else if to.start == 0 {
+        0..LEAST.min(n)
+    } else {
+        n.saturating_sub(LEAST)..n
+    }
+}
+
+/// `1.4826 MAD` of value minus expected value, at least the floor; 0 when nothing is expected.
+fn residual_scale(segment: &Segment<'_>, expected: &[f64]) -> f64 {
+    let mut residuals: Vec<f64> = segment.y.iter().zip(expected).map(|(y, p)| y - p).filter(|r| !r.is_nan()).collect();
+    if residuals.is_empty() {
+        return segment.floor;
+    }
+    let center = median(&residuals);
+    segment.bounded(mad_scale_in_place(&mut residuals, center), segment.zero())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::method::{Rate, Verdict};
+
+    #[test]
+    fn windows_are_cut_at_the_ends() {
+        assert_eq!(window(10, 5, 20), 8..13);
+        assert_eq!(window(10, 4, 20), 8..12, "even: one more before than after");
+        assert_eq!(window(0, 5, 20), 0..3);
+        assert_eq!(window(0, 4, 20), 0..3, "0..2 has two samples only");
+        assert_eq!(window(19, 4, 20), 17..20);
+    }
+
+    #[test]
+    fn a_manoeuvre_that_the_rate_shows_is_no_outlier_and_a_jump_that_it_does_not_show_is() -> Result<(), Stopped> {
+        let t: Vec<f64> = (0..200).map(|i| 0.5 * f64::from(i)).collect();
+        let speed: Vec<f64> = t.iter().map(|t| if *t < 50.0 { 10.0 } else { -40.0 }).collect();
+        let noise = |i: usize| ((i * 7919 % 101) as f64 / 50.0 - 1.0) * 0.1;
+        let mut y: Vec<f64> = integral::to_times(&t, &speed, &t).iter().map(|[a, b]| a + b).collect();
+        (0..y.len()).for_each(|i| y[i] += 1e6 + noise(i));
+        (120..126).for_each(|i| y[i] += 3.0);
+        let rate = Some(Rate { t: &t, y: &speed });
+        let segment = Segment { t: &t, y: &y, interval: 0.5, sigma: 0.0, floor: 0.0, rate };
+        let judged = Matched.judge(&segment, &Settings::defaults(PARAMS), &Stop::never())?;
+        let flagged: Vec<usize> = (0..y.len()).filter(|&i| judged.verdict[i] == Verdict::Outlier).collect();
+        assert_eq!(flagged, (120..126).collect::<Vec<_>>());
+        let none = Segment { rate: None, ..segment };
+        let judged = Matched.judge(&none, &Settings::defaults(PARAMS), &Stop::never())?;
+        assert!(judged.verdict.iter().all(|v| *v == Verdict::Unchecked) && judged.warnings.len() == 1);
+        Ok(())
+    }
+}

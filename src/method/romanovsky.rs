@@ -1,0 +1,49 @@
+//! Romanovsky's criterion: Student's t for the most deviant sample, one at a time.
+
+use super::trend::{self, Criterion, Critical, OneAtATime};
+use super::{About, Judged, Method, Own, Segment, shared};
+use crate::param::{Param, Settings};
+use crate::stop::{Stop, Stopped};
+
+/// The method `romanovsky` of section 2 of the methods page.
+#[derive(Debug, Clone, Copy)]
+pub struct Romanovsky;
+
+static PARAMS: [Param; 7] = [
+    shared::ALPHA,
+    shared::TREND_ORDER,
+    shared::REFIT,
+    shared::MAX_PASSES,
+    shared::BLOCK,
+    shared::MAX_GAP,
+    shared::FLOOR,
+];
+
+static ABOUT: About = About {
+    id: "romanovsky",
+    name: "Romanovsky (t test)",
+    family: shared::WHOLE_SEGMENT,
+    source: "[001] s.2",
+    advice: "Takes out the most deviant sample, again and again, as long as Student's t says that it does not belong to the others. For few data without wild points that vary with time ([001]: 4 to 20); alpha is the chance of a false alarm for each sample, so long records lose about 1.6 alpha of their good ones.",
+    params: &PARAMS,
+    own: Own::Remove,
+    needs_rate: false,
+};
+
+impl Method for Romanovsky {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
+        trend::judge(&criterion(settings), segment, settings, stop)
+    }
+
+    fn warnings(&self, settings: &Settings) -> Vec<String> {
+        trend::warnings(&criterion(settings), settings)
+    }
+}
+
+fn criterion(settings: &Settings) -> impl Criterion {
+    OneAtATime(Critical::new(settings.real(shared::ALPHA.key), false))
+}

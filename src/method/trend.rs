@@ -1,0 +1,194 @@
+//! What the criteria of section 2 of the methods page share: blocks, a least-squares trend, and passes over the
+//! samples that survive \[001 s.2, 002\].
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::{Judged, Segment, Verdict, shared};
+use crate::math::polyfit::Polynomial;
+use crate::param::Settings;
+use crate::stop::{Stop, Stopped};
+
+mod at_once;
+mod one_at_a_time;
+mod warning;
+
+pub(super) use at_once::{AtOnce, normal_at};
+pub(super) use one_at_a_time::{Critical, OneAtATime, Removals};
+pub(super) use warning::of_settings as warnings;
+
+/// How a criterion judges the residuals of the survivors, once.
+pub(super) trait Criterion: Sync {
+    /// How many groups are judged by themselves: position `i` of a block belongs to group `i` modulo this.
+    fn groups(&self) -> usize {
+        1
+    }
+
+    /// How many scales a residual must deviate to be flagged, among `n >= 3` of a group.
+    fn needed(&self, n: usize) -> f64;
+
+    /// What one pass says of the survivors.
+    fn pass(&self, survivors: &Survivors<'_>, stop: &Stop) -> Result<Pass, Stopped>;
+}
+
+/// The samples of a block that no pass has flagged.
+#[derive(Debug)]
+pub(super) struct Survivors<'a> {
+    /// Their residuals from the trend.
+    pub(super) residual: &'a [f64],
+    /// Their positions in the block, ascending.
+    pub(super) position: &'a [usize],
+    segment: &'a Segment<'a>,
+    zero: f64,
+}
+
+impl Survivors<'_> {
+    /// A standard deviation with the bounds of the segment.
+    pub(super) fn bounded(&self, deviation: f64) -> f64 {
+        self.segment.bounded(deviation, self.zero)
+    }
+}
+
+/// What one pass says.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Pass {
+    /// What it flags: indices into the survivors, in any order.
+    pub(super) flagged: Vec<usize>,
+    /// What each group was judged by; none for a group with too few survivors.
+    pub(super) groups: Vec<Option<Limit>>,
+}
+
+/// What a group of residuals was judged by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limit {
+    /// Mean residual.
+    pub(super) mean: f64,
+    /// Standard deviation, bounded.
+    pub(super) scale: f64,
+    /// A residual that deviates from the mean by this is flagged; 0 where nothing can be.
+    pub(super) tolerance: f64,
+}
+
+/// The settings that the criteria share.
+#[derive(Debug, Clone, Copy)]
+struct Rule {
+    order: usize,
+    refit: bool,
+    max_passes: usize,
+    block: usize,
+}
+
+/// Judges a segment block by block.
+pub(super) fn judge(
+    criterion: &impl Criterion,
+    segment: &Segment<'_>,
+    settings: &Settings,
+    stop: &Stop,
+) -> Result<Judged, Stopped> {
+    let order = settings.whole(shared::TREND_ORDER.key);
+    let max_passes = settings.whole(shared::MAX_PASSES.key);
+    let refit = order > 0 && settings.switch(shared::REFIT.key);
+    let rule = Rule { order, refit, max_passes, block: settings.whole(shared::BLOCK.key) };
+    let zero = segment.zero();
+    let parts: Vec<Judged> = blocks(segment.len(), rule.block)
+        .into_par_iter()
+        .map(|block| {
+            stop.check()?;
+            judge_block(criterion, segment, block, zero, &rule, stop)
+        })
+        .collect::<Result<_, _>>()?;
+    let mut whole = Judged::default();
+    parts.into_iter().for_each(|part| whole.append(part));
+    Ok(whole)
+}
+
+/// The blocks of `size` samples of a segment (0: all of it); one shorter than half of that joins the one before.
+pub(super) fn blocks(len: usize, size: usize) -> Vec<Range<usize>> {
+    if size == 0 || len <= size {
+        return std::iter::once(0..len).collect();
+    }
+    let mut blocks: Vec<Range<usize>> = (0..len).step_by(size).map(|at| at..(at + size).min(len)).collect();
+    if blocks.last().is_some_and(|last| 2 * last.len() < size) {
+        blocks.pop();
+        if let Some(last) = blocks.last_mut() {
+            last.end = len;
+        }
+    }
+    blocks
+}
+
+fn judge_block(
+    criterion: &impl Criterion,
+    segment: &Segment<'_>,
+    block: Range<usize>,
+    zero: f64,
+    rule: &Rule,
+    stop: &Stop,
+) -> Result<Judged, Stopped> {
+    let (t, y) = (&segment.t[block.clone()], &segment.y[block.clone()]);
+    let (n, fewest) = (y.len(), rule.order + 3);
+    if n < fewest {
+        return Ok(Judged::unchecked(n));
+    }
+    let mut position: Vec<usize> = (0..n).collect();
+    let (mut ts, mut ys) = (Cow::Borrowed(t), Cow::Borrowed(y));
+    let mut fit = fit(t, y, rule.order, stop)?;
+    let mut residual = residuals(&fit, &ts, &ys);
+    let mut flagged = vec![false; n];
+    let mut limits = vec![None; criterion.groups()];
+    let mut passes = 0;
+    loop {
+        let survivors = Survivors { residual: &residual, position: &position, segment, zero };
+        let pass = criterion.pass(&survivors, stop)?;
+        limits.iter_mut().zip(pass.groups).for_each(|(limit, new)| *limit = new.or(*limit));
+        passes += 1;
+        pass.flagged.iter().for_each(|&i| flagged[position[i]] = true);
+        let nothing_new = pass.flagged.is_empty();
+        if nothing_new || passes == rule.max_passes || position.len() - pass.flagged.len() < fewest {
+            break;
+        }
+        position.retain(|&p| !flagged[p]);
+        ts = Cow::Owned(position.iter().map(|&p| t[p]).collect());
+        ys = Cow::Owned(position.iter().map(|&p| y[p]).collect());
+        if rule.refit {
+            fit = self::fit(&ts, &ys, rule.order, stop)?;
+        }
+        residual = residuals(&fit, &ts, &ys);
+    }
+    let mut judged = verdicts(&fit, t, &flagged, &limits);
+    // Full blocks are warned of by their settings.
+    if rule.block == 0 || n < rule.block {
+        judged.warnings.extend(warning::of_reach(criterion, t, &fit));
+    }
+    judged.warnings.extend(warning::of_trend(segment, &block, &limits, zero));
+    Ok(judged)
+}
+
+fn fit(t: &[f64], y: &[f64], order: usize, stop: &Stop) -> Result<Polynomial, Stopped> {
+    Polynomial::fit_long(t, y, order, || stop.check())
+}
+
+fn residuals(fit: &Polynomial, t: &[f64], y: &[f64]) -> Vec<f64> {
+    t.par_iter().zip(y).with_min_len(8192).map(|(&t, &y)| fit.residual(t, y)).collect()
+}
+
+/// Expected value: the trend plus the mean of the last pass. Tolerance: the last limit applied.
+fn verdicts(fit: &Polynomial, t: &[f64], flagged: &[bool], limits: &[Option<Limit>]) -> Judged {
+    let of = |i: usize| limits[i % limits.len()];
+    let all = || (0..t.len()).into_par_iter().with_min_len(8192);
+    let expected = all().map(|i| of(i).map_or(f64::NAN, |limit| fit.at(t[i]) + limit.mean)).collect();
+    let tolerance = all().map(|i| of(i).map_or(f64::NAN, |limit| limit.tolerance)).collect();
+    let verdict = all()
+        .map(|i| match of(i) {
+            _ if flagged[i] => Verdict::Outlier,
+            Some(_) => Verdict::Normal,
+            None => Verdict::Unchecked,
+        })
+        .collect();
+    Judged { verdict, expected, tolerance, ..Judged::default() }
+}
+
+#[cfg(test)]
+mod tests;

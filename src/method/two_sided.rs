@@ -1,0 +1,254 @@
+//! Two-sided variable-order polynomial test: section 6 of the methods page, \[000\].
+
+use super::{About, Direction, Directions, Judged, Method, Own, Segment, TIE, Verdict, Way, shared};
+use crate::param::{Choice, Kind, Param, Settings, Value, always};
+use crate::stop::{Stop, Stopped};
+
+mod candidates;
+mod direction;
+mod repair;
+
+pub use candidates::{Candidate, Candidates, Closest, candidates};
+pub use direction::{OneWay, run};
+
+/// Extrapolates polynomials of several orders from both sides: a sample that no candidate of either side expects is
+/// an outlier; one that only one side objects to is suspect.
+pub struct TwoSided;
+
+static PARAMS: &[Param] = &[
+    DELTA,
+    K,
+    SIGMA,
+    ORDER,
+    VARIABLE_ORDER,
+    POINTS,
+    TWO_POINT,
+    START,
+    MAX_RUN,
+    DIRECTION,
+    REPAIR_RULE,
+    shared::MAX_GAP,
+    shared::FLOOR,
+];
+
+const DELTA: Param = Param {
+    key: "delta",
+    help: "tolerance: auto (k * sigma), or a number in the channel's units",
+    unit: "channel units",
+    kind: Kind::RealOr { words: &["auto"], min: f64::MIN_POSITIVE, max: 1e300 },
+    default: Value::Word("auto"),
+    paper: None,
+    matters: always,
+};
+
+const K: Param = shared::K.with_default(Value::Real(4.0)).with_paper(Some(Value::Real(3.0))).with_matters(by_sigma);
+
+const SIGMA: Param = shared::SIGMA.with_paper(Some(Value::Word("spline")));
+
+const ORDER: Param = Param {
+    key: "order",
+    help: "highest order of the polynomials",
+    unit: "",
+    kind: Kind::Whole { min: 1, max: 3, step: 1 },
+    default: Value::Whole(2),
+    paper: Some(Value::Whole(3)),
+    matters: always,
+};
+
+const VARIABLE_ORDER: Param = Param {
+    key: "variable_order",
+    help: "lower orders compete too: a sample is normal when any candidate agrees",
+    unit: "",
+    kind: Kind::Switch,
+    default: Value::Switch(true),
+    paper: None,
+    matters: |s| s.whole("order") > 1 || s.switch("two_point"),
+};
+
+const POINTS: Param = Param {
+    key: "points",
+    help: "fitting points of the line; order l is fitted to l times as many",
+    unit: "samples",
+    kind: Kind::Whole { min: 4, max: 30, step: 1 },
+    default: Value::Whole(8),
+    paper: Some(Value::Whole(6)),
+    matters: always,
+};
+
+const TWO_POINT: Param = Param {
+    key: "two_point",
+    help: "the line through the last two competes too (prediction error 2.45 sigma: it mainly lets outliers in)",
+    unit: "",
+    kind: Kind::Switch,
+    default: Value::Switch(false),
+    paper: None,
+    matters: |s| s.switch("variable_order"),
+};
+
+const START: Param = Param {
+    key: "start",
+    help: "consecutive good samples that start a model",
+    unit: "samples",
+    kind: Kind::Whole { min: 4, max: 200, step: 1 },
+    default: Value::Whole(6),
+    paper: None,
+    matters: always,
+};
+
+const MAX_RUN: Param = shared::MAX_RUN.with_default(Value::Whole(10));
+
+const DIRECTION: Param = Param {
+    key: "direction",
+    help: "which way the test runs; an outlier of both is abnormal in both",
+    unit: "",
+    kind: Kind::Choice(&["both", "forward", "backward"]),
+    default: Value::Word("both"),
+    paper: None,
+    matters: always,
+};
+
+const REPAIR_RULE: Param = Param {
+    key: "repair_rule",
+    help: "own repair: best (the candidate that fits both sides best), or matched (only when both directions came \
+           back by the same candidate; otherwise removed)",
+    unit: "",
+    kind: Kind::Choice(&["best", "matched"]),
+    default: Value::Word("best"),
+    paper: Some(Value::Word("matched")),
+    matters: always,
+};
+
+static ABOUT: About = About {
+    id: "two-sided",
+    name: "two-sided variable-order polynomial test",
+    family: "two-sided",
+    source: "[000] section 2, eqs. (1)-(5)",
+    advice: "Recorded tracks with isolated outliers and patches up to max_run samples, lost samples and steps: a step \
+             or manoeuvre is suspect, not removed. In [000] it beats either direction alone at every order, and \
+             variable order beats any fixed one. Wants start + a few samples on each side; a patch longer than \
+             max_run is taken for a real change (a restart is listed), and so is a patch at the end of a segment \
+             that only one direction reaches as an outlier.",
+    params: PARAMS,
+    own: Own::Remove,
+    needs_rate: false,
+};
+
+fn by_sigma(settings: &Settings) -> bool {
+    settings.choice("delta") == Choice::Word("auto")
+}
+
+impl Method for TwoSided {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
+        let delta = match settings.choice("delta") {
+            Choice::Number(delta) => delta,
+            Choice::Word(_) => settings.real(shared::K.key) * segment.sigma,
+        };
+        if delta <= 0.0 {
+            return Ok(Judged::unchecked(segment.len()));
+        }
+        let max_run = settings.whole(shared::MAX_RUN.key);
+        let one = |way| {
+            let model = Candidates::new(settings, delta, segment.sigma, segment.interval);
+            run(model, segment, max_run, way, stop)
+        };
+        let (forward, backward) = match settings.word("direction") {
+            "forward" => (Some(one(Way::Forward)?), None),
+            "backward" => (None, Some(one(Way::Backward)?)),
+            _ => {
+                let (forward, backward) = rayon::join(|| one(Way::Forward), || one(Way::Backward));
+                (Some(forward?), Some(backward?))
+            }
+        };
+        Ok(together(segment, delta, forward, backward))
+    }
+
+    fn own_repair(&self, segment: &Segment<'_>, settings: &Settings, judged: &Judged, outliers: &[usize]) -> Vec<f64> {
+        repair::repair(segment, settings, judged, outliers)
+    }
+
+    fn notes(&self, settings: &Settings) -> Vec<String> {
+        let figure = |c: &Candidate| format!("{} {:.2} .. {:.2}", c.name(), c.error(1), c.error(4));
+        let figures: Vec<String> = candidates(settings).iter().map(figure).collect();
+        let limit =
+            if by_sigma(settings) { format!("k = {}", settings.real(shared::K.key)) } else { "delta in sigma".into() };
+        vec![format!("prediction error in sigma, 1 .. 4 steps ahead: {}; beside {limit}", figures.join(", "))]
+    }
+
+    fn warnings(&self, settings: &Settings) -> Vec<String> {
+        let mut lines = Vec::new();
+        let most = candidates(settings).iter().map(|c| c.error(4)).fold(0.0, f64::max);
+        if by_sigma(settings) && most > settings.real(shared::K.key) {
+            lines.push(format!(
+                "after a few rejections a candidate errs by {most:.1} sigma, more than k: it accepts nearly everything"
+            ));
+        }
+        if settings.word("direction") != "both" && settings.word("repair_rule") == "matched" {
+            lines.push("repair_rule = matched needs both directions: everything is removed".into());
+        }
+        lines
+    }
+}
+
+/// The verdicts of both directions put together, or of the one that ran.
+fn together(segment: &Segment<'_>, delta: f64, forward: Option<OneWay>, backward: Option<OneWay>) -> Judged {
+    let n = segment.len();
+    let mut judged = Judged {
+        verdict: Vec::with_capacity(n),
+        expected: Vec::with_capacity(n),
+        tolerance: vec![delta; n],
+        directions: Vec::with_capacity(n),
+        repair_code: Vec::with_capacity(n),
+        ..Judged::default()
+    };
+    for i in 0..n {
+        let of = |one: &Option<OneWay>| {
+            one.as_ref().map_or((None, f64::NAN, 0), |w| (Some(w.said[i]), w.expected[i], w.code[i]))
+        };
+        let ((f, p, f_code), (b, q, b_code)) = (of(&forward), of(&backward));
+        judged.verdict.push(verdict(f, b));
+        judged.expected.push(nearer(segment.y[i], p, q, TIE * delta));
+        judged.directions.push(Directions { forward: f, backward: b });
+        judged.repair_code.push([f_code, b_code]);
+    }
+    for (one, way) in [(forward, Way::Forward), (backward, Way::Backward)] {
+        let Some(mut one) = one else { continue };
+        debug_assert!(one.restarts.iter().all(|r| r.way == way));
+        for i in one.traces {
+            if judged.verdict[i] == Verdict::Normal {
+                judged.verdict[i] = Verdict::Suspect;
+            }
+        }
+        judged.restarts.append(&mut one.restarts);
+    }
+    for (tolerance, expected) in judged.tolerance.iter_mut().zip(&judged.expected) {
+        if expected.is_nan() {
+            *tolerance = f64::NAN;
+        }
+    }
+    judged
+}
+
+/// What the directions make of a sample; none for a direction that did not run.
+fn verdict(forward: Option<Direction>, backward: Option<Direction>) -> Verdict {
+    use Direction::{Abnormal, Normal, Unjudged};
+    match (forward, backward) {
+        (Some(one), None) | (None, Some(one)) => match one {
+            Normal => Verdict::Normal,
+            Abnormal => Verdict::Outlier,
+            Unjudged => Verdict::Unchecked,
+        },
+        (Some(Abnormal), Some(Abnormal | Unjudged)) | (Some(Unjudged), Some(Abnormal)) => Verdict::Outlier,
+        (Some(Abnormal), Some(Normal)) | (Some(Normal), Some(Abnormal)) => Verdict::Suspect,
+        (Some(Unjudged), Some(Unjudged)) | (None, None) => Verdict::Unchecked,
+        _ => Verdict::Normal,
+    }
+}
+
+/// Of two predictions the one nearer to `y`; within `tie` the first; the other where one is NaN.
+fn nearer(y: f64, forward: f64, backward: f64, tie: f64) -> f64 {
+    if forward.is_nan() || (backward - y).abs() < (forward - y).abs() - tie { backward } else { forward }
+}

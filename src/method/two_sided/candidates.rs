@@ -1,0 +1,193 @@
+//! The polynomials that compete for each sample, and the model they make up (steps 1 and 2 of section 6).
+
+use crate::math::extrapolate::{Extrapolator, Recent, prediction_error};
+use crate::method::predictor::{Answer, Model, passed_over_by_third};
+use crate::method::{TIE, reaches};
+use crate::param::Settings;
+
+/// A polynomial order with the points it is fitted to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Candidate {
+    /// Order l.
+    pub order: usize,
+    /// Points `m_l`.
+    pub points: usize,
+    /// The number by which verdicts remember it: its order, or 4 for the line through two points.
+    pub code: u8,
+}
+
+/// The code of "none".
+pub(super) const NO_CANDIDATE: u8 = 0;
+/// The code of the line through the last two points.
+pub(super) const TWO_POINT: u8 = 4;
+
+impl Candidate {
+    fn of_order(order: usize, points_of_line: usize) -> Self {
+        #[expect(clippy::cast_possible_truncation, reason = "orders are at most 3")]
+        Self { order, points: order * points_of_line, code: order as u8 }
+    }
+
+    /// How many accepted samples it waits for.
+    #[must_use]
+    pub fn need(&self) -> usize {
+        if self.code == TWO_POINT { 2 } else { self.points.min(3 * (self.order + 1)) }
+    }
+
+    /// Standard deviation of its prediction error in noise scales, so many steps ahead of even samples.
+    #[must_use]
+    pub fn error(&self, ahead: usize) -> f64 {
+        prediction_error(self.points, self.order, ahead)
+    }
+
+    /// Its name: `parabola on 16`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let shape = ["constant", "line", "parabola", "cubic"].get(self.order).unwrap_or(&"polynomial");
+        format!("{shape} on {}", self.points)
+    }
+}
+
+/// The candidates of these settings, the highest order first.
+#[must_use]
+pub fn candidates(settings: &Settings) -> Vec<Candidate> {
+    let (order, points) = (settings.whole("order"), settings.whole("points"));
+    if !settings.switch("variable_order") {
+        return vec![Candidate::of_order(order, points)];
+    }
+    let mut list: Vec<Candidate> = (1..=order).rev().map(|l| Candidate::of_order(l, points)).collect();
+    if settings.switch("two_point") {
+        list.push(Candidate { order: 1, points: 2, code: TWO_POINT });
+    }
+    list
+}
+
+/// What is said of a sample beside its verdict: the candidate that came closest, and its prediction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Closest {
+    /// Its prediction.
+    pub expected: f64,
+    /// Its code.
+    pub code: u8,
+}
+
+/// The candidates over the newest accepted samples of one direction.
+#[derive(Debug, Clone)]
+pub struct Candidates {
+    list: Vec<(Candidate, Extrapolator)>,
+    recent: Recent,
+    /// Samples in a start group.
+    start: usize,
+    delta: f64,
+    /// Third differences of a start group stay below this.
+    start_limit: f64,
+    t: f64,
+    /// Predictions of the candidates that take part, by their place in the list.
+    predicted: [f64; 4],
+    closest: Closest,
+}
+
+/// Start groups accept third differences up to so many noise scales: two deviations of a third difference.
+const START_SCALES: f64 = 9.0;
+
+impl Candidates {
+    /// A model for these settings; `delta` and `sigma` in the units of the channel, `interval` in seconds.
+    #[must_use]
+    pub fn new(settings: &Settings, delta: f64, sigma: f64, interval: f64) -> Self {
+        let list = candidates(settings);
+        let smallest = list.iter().filter(|c| c.code != TWO_POINT).map(Candidate::need).min().unwrap_or(4);
+        let room = list.iter().map(|c| c.points).max().unwrap_or(1);
+        Self {
+            start: settings.whole("start").max(4).max(smallest),
+            list: list.into_iter().map(|c| (c, Extrapolator::new(c.order, c.points))).collect(),
+            recent: Recent::new(room, interval),
+            delta,
+            start_limit: delta.max(START_SCALES * sigma),
+            t: f64::NAN,
+            predicted: [f64::NAN; 4],
+            closest: Closest { expected: f64::NAN, code: NO_CANDIDATE },
+        }
+    }
+
+    /// Predictions at `t`: on the times as they are if `exact`, else by the quickest way.
+    #[inline]
+    fn extrapolate(&mut self, exact: bool) {
+        let ahead = self.recent.ahead(self.t);
+        for ((candidate, extrapolator), predicted) in self.list.iter_mut().zip(&mut self.predicted) {
+            *predicted = if self.recent.len() < candidate.need() {
+                f64::NAN
+            } else if exact {
+                extrapolator.exact(&self.recent, self.t)
+            } else {
+                extrapolator.quick(&self.recent, self.t, ahead)
+            };
+        }
+    }
+
+    /// The prediction closest to `y` (within 1e-9 delta: the higher order), its distance, and whether the rounding of
+    /// even times could change what follows from them.
+    #[inline]
+    fn closest_to(&self, y: f64) -> (Closest, f64, bool) {
+        let newest = self.recent.newest_value();
+        let tie = TIE * self.delta;
+        let (mut best, mut distance) = (Closest { expected: f64::NAN, code: NO_CANDIDATE }, f64::INFINITY);
+        let (mut margin, mut doubtful) = (0.0_f64, false);
+        for ((candidate, _), &p) in self.list.iter().zip(&self.predicted) {
+            if p.is_nan() {
+                continue;
+            }
+            let d = (p - y).abs();
+            margin = margin.max(1e-10 * self.delta + 1e-6 * (p - newest).abs());
+            doubtful |= (d - (distance - tie)).abs() <= margin;
+            if d < distance - tie {
+                (best, distance) = (Closest { expected: p, code: candidate.code }, d);
+            }
+        }
+        doubtful |= (distance - self.delta * (1.0 - TIE)).abs() <= margin;
+        (best, distance, doubtful)
+    }
+}
+
+impl Model for Candidates {
+    type Sample = f64;
+    type Prediction = Closest;
+
+    fn group(&self) -> usize {
+        self.start
+    }
+
+    fn passed_over(&self, group: &[(f64, f64)]) -> usize {
+        passed_over_by_third(group, self.start_limit)
+    }
+
+    fn start(&mut self, group: &[(f64, f64)]) {
+        self.recent.clear();
+        group.iter().for_each(|&(t, y)| self.recent.push(t, y));
+    }
+
+    #[inline]
+    fn predict(&mut self, t: f64, _: usize, _: usize) {
+        self.t = t;
+        self.extrapolate(false);
+    }
+
+    fn prediction(&self) -> &Closest {
+        &self.closest
+    }
+
+    #[inline]
+    fn answer(&mut self, t: f64, y: f64) -> Answer {
+        let (mut closest, mut distance, doubtful) = self.closest_to(y);
+        if doubtful {
+            // Too close to call by weights for exactly even times: the verdict must not depend on the way it was
+            // reached.
+            self.extrapolate(true);
+            (closest, distance, _) = self.closest_to(y);
+        }
+        self.closest = closest;
+        if reaches(distance, self.delta) {
+            return Answer::Rejects;
+        }
+        self.recent.push(t, y);
+        Answer::Accepts
+    }
+}

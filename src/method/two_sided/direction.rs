@@ -1,0 +1,100 @@
+//! What one direction says of a segment (steps 1 to 4 of section 6).
+
+use std::ops::Range;
+
+use super::candidates::{Candidates, Closest, NO_CANDIDATE};
+use crate::method::predictor::{Answer, Engine, Sink};
+use crate::method::{Direction, Restart, Segment, Way};
+use crate::stop::{Stop, Stopped};
+
+/// The verdicts of one direction, in the order of time.
+#[derive(Debug)]
+pub struct OneWay {
+    /// One per sample.
+    pub said: Vec<Direction>,
+    /// The closest prediction; NaN where there is none.
+    pub expected: Vec<f64>,
+    /// Code of the candidate remembered for the run that the sample belongs to.
+    pub code: Vec<u8>,
+    /// First samples of start groups that follow a restart.
+    pub traces: Vec<usize>,
+    /// Where models were lost.
+    pub restarts: Vec<Restart>,
+    way: Way,
+}
+
+impl OneWay {
+    fn new(n: usize, way: Way) -> Self {
+        Self {
+            said: vec![Direction::Unjudged; n],
+            expected: vec![f64::NAN; n],
+            code: vec![NO_CANDIDATE; n],
+            traces: Vec::new(),
+            restarts: Vec::new(),
+            way,
+        }
+    }
+
+    #[inline]
+    fn position(&self, at: usize) -> usize {
+        if self.way == Way::Forward { at } else { self.said.len() - 1 - at }
+    }
+}
+
+impl Sink<Closest> for OneWay {
+    fn started(&mut self, group: Range<usize>, again: bool) {
+        if again {
+            self.traces.push(self.position(group.start));
+        }
+        for at in group {
+            let i = self.position(at);
+            self.said[i] = Direction::Normal;
+            self.expected[i] = f64::NAN;
+        }
+    }
+
+    #[inline]
+    fn judged(&mut self, at: usize, answer: Answer, run: usize, closest: &Closest) {
+        let i = self.position(at);
+        self.expected[i] = closest.expected;
+        if answer == Answer::Rejects {
+            self.said[i] = Direction::Abnormal;
+            return;
+        }
+        self.said[i] = Direction::Normal;
+        for at in at - run..at {
+            let i = self.position(at);
+            self.code[i] = closest.code;
+        }
+    }
+
+    fn lost(&mut self, run: Range<usize>) {
+        // The run stays abnormal as the lost model left it, as far as no new model gets hold of it.
+        self.restarts.push(Restart { at: self.position(run.start), way: self.way });
+    }
+}
+
+/// Runs a model over a segment in one direction.
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for the result any more.
+pub fn run(model: Candidates, segment: &Segment<'_>, max_run: usize, way: Way, stop: &Stop) -> Result<OneWay, Stopped> {
+    let n = segment.len();
+    let mut page = OneWay::new(n, way);
+    let mut engine = Engine::new(model, segment.interval, max_run);
+    match way {
+        Way::Forward => {
+            for i in 0..n {
+                stop.check_at(i)?;
+                engine.push(segment.t[i], segment.y[i], &mut page);
+            }
+        }
+        Way::Backward => {
+            for i in (0..n).rev() {
+                stop.check_at(i)?;
+                engine.push(-segment.t[i], segment.y[i], &mut page);
+            }
+        }
+    }
+    Ok(page)
+}

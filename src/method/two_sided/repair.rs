@@ -1,0 +1,70 @@
+//! Eq. (5) of \[000\]: one polynomial through the accepted samples on both sides of a run.
+
+use super::candidates::{Candidate, TWO_POINT, candidates};
+use crate::math::polyfit::Polynomial;
+use crate::method::{Judged, Segment};
+use crate::param::Settings;
+
+/// One value for each sample of `outliers` (ascending positions); NaN where the sample is removed.
+#[must_use]
+pub(super) fn repair(segment: &Segment<'_>, settings: &Settings, judged: &Judged, outliers: &[usize]) -> Vec<f64> {
+    let list = candidates(settings);
+    let matched = settings.word("repair_rule") == "matched";
+    let mut accepted = vec![true; segment.len()];
+    for &i in outliers {
+        accepted[i] = false;
+    }
+    let mut values = Vec::with_capacity(outliers.len());
+    for run in outliers.chunk_by(|a, b| a + 1 == *b) {
+        let fit = if matched {
+            agreed(segment, judged, run, &list).and_then(|c| around(segment, &accepted, run, c)).map(|(fit, _)| fit)
+        } else {
+            best(segment, &accepted, run, &list)
+        };
+        values.extend(run.iter().map(|&i| fit.as_ref().map_or(f64::NAN, |fit| fit.at(segment.t[i]))));
+    }
+    values
+}
+
+/// `best`: the candidate with the least sum of squares per degree of freedom among those with room on both sides.
+fn best(segment: &Segment<'_>, accepted: &[bool], run: &[usize], list: &[Candidate]) -> Option<Polynomial> {
+    let mut best: Option<(Polynomial, f64)> = None;
+    for candidate in list {
+        if let Some((fit, misfit)) = around(segment, accepted, run, candidate)
+            && best.as_ref().is_none_or(|(_, least)| misfit < *least)
+        {
+            best = Some((fit, misfit));
+        }
+    }
+    best.map(|(fit, _)| fit)
+}
+
+/// `matched`: the candidate that both directions remember, where the paper allows it.
+fn agreed<'a>(segment: &Segment<'_>, judged: &Judged, run: &[usize], list: &'a [Candidate]) -> Option<&'a Candidate> {
+    let (&first, &last) = (run.first()?, run.last()?);
+    let [forward, _] = *judged.repair_code.get(last)?;
+    let [_, backward] = *judged.repair_code.get(first)?;
+    let candidate = list.iter().find(|c| c.code == forward && c.code == backward)?;
+    // Two points show nothing of what the track does over a longer gap.
+    let lost = segment.lost_before(first) > 0 || (last + 1 < segment.len() && segment.lost_before(last + 1) > 0);
+    (candidate.code != TWO_POINT || (first == last && !lost)).then_some(candidate)
+}
+
+/// The candidate's polynomial through its number of accepted samples before the run and as many after it, with the
+/// sum of squares of its residuals per degree of freedom; none when either side has fewer.
+fn around(segment: &Segment<'_>, accepted: &[bool], run: &[usize], c: &Candidate) -> Option<(Polynomial, f64)> {
+    let (&first, &last) = (run.first()?, run.last()?);
+    let mut at: Vec<usize> = (0..first).rev().filter(|&i| accepted[i]).take(c.points).collect();
+    at.reverse();
+    at.extend((last + 1..segment.len()).filter(|&i| accepted[i]).take(c.points));
+    // Either side may be short; together they are whole only when neither is.
+    if at.len() < 2 * c.points {
+        return None;
+    }
+    let (t, y): (Vec<f64>, Vec<f64>) = at.iter().map(|&i| (segment.t[i], segment.y[i])).unzip();
+    let fit = Polynomial::fit(&t, &y, c.order);
+    let squares: f64 = t.iter().zip(&y).map(|(&t, y)| (y - fit.at(t)) * (y - fit.at(t))).sum();
+    #[expect(clippy::cast_precision_loss, reason = "at most 180 points")]
+    let freedom = (2 * c.points - c.order - 1) as f64;
+    Some((fit, squares / freedom))
+}

@@ -1,0 +1,214 @@
+//! What the methods of section 3 of the methods page share: windows, scales, pooled floor and feedback \[003\].
+
+use rayon::prelude::*;
+
+use super::{Judged, Segment, Verdict, reaches, shared};
+use crate::math::order::median_in_place;
+use crate::param::Settings;
+use crate::stop::{Stop, Stopped};
+
+mod baseline;
+mod geometry;
+mod polynomial;
+mod statistics;
+mod warning;
+
+pub(super) use geometry::{Edge, Windows, level};
+pub(super) use polynomial::{PolyRule, judge as judge_polynomials};
+use statistics::Statistics;
+pub(super) use warning::{of_reach, warnings};
+
+/// Samples that one piece of parallel work handles. It does not depend on the number of threads, so neither do the
+/// bits of the results.
+pub(super) const CHUNK: usize = 8192;
+
+/// What a window's samples are compared with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Center {
+    Mean,
+    Median,
+}
+
+/// How a window's scale is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Spread {
+    /// `1.4826 * median |x - median(x)|`.
+    Mad,
+    /// `sqrt(sum (x - p)^2 / (n - 1))` about the expected value `p`.
+    Rms,
+}
+
+/// The settings of a window method.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rule {
+    pub(super) center: Center,
+    pub(super) spread: Spread,
+    pub(super) width: usize,
+    pub(super) edge: Edge,
+    pub(super) detrend: bool,
+    pub(super) pooled: bool,
+    pub(super) feedback: bool,
+    pub(super) k: f64,
+}
+
+impl Rule {
+    /// The rule that `settings` describe; without a `feedback` setting there is none.
+    pub(super) fn of(settings: &Settings, center: Center) -> Self {
+        Self {
+            center,
+            spread: spread(settings),
+            width: settings.whole(shared::WINDOW.key),
+            edge: Edge::of(settings),
+            detrend: settings.word(shared::DETREND.key) == "slope",
+            pooled: settings.word(shared::NOISE_FLOOR.key) == "pooled",
+            feedback: has_feedback(settings),
+            k: settings.real(shared::K.key),
+        }
+    }
+}
+
+/// How these settings measure a window's scale.
+pub(super) fn spread(settings: &Settings) -> Spread {
+    if settings.word(shared::SCALE.key) == "rms" { Spread::Rms } else { Spread::Mad }
+}
+
+/// True when a flagged sample is replaced before the window moves on.
+pub(super) fn has_feedback(settings: &Settings) -> bool {
+    settings.get(shared::FEEDBACK.key).is_some_and(|_| settings.switch(shared::FEEDBACK.key))
+}
+
+/// The key of the multiplier, where there is no feedback and it only gates.
+pub(super) fn gate(settings: &Settings) -> Option<&'static str> {
+    (!has_feedback(settings)).then_some(shared::K.key)
+}
+
+/// What the `own` repair of a method with feedback puts in: the last replacement, or the expected value.
+pub(super) fn replacement_or_expected(judged: &Judged, outliers: &[usize]) -> Vec<f64> {
+    let at = |values: &[f64], i: usize| values.get(i).copied().filter(|v| !v.is_nan());
+    outliers.iter().map(|&i| at(&judged.own, i).or(at(&judged.expected, i)).unwrap_or(f64::NAN)).collect()
+}
+
+/// Fills `out` by `each(state, index)`, piece by piece in parallel, each piece with a new state.
+pub(super) fn sweep<T: Send, S>(
+    out: &mut [T],
+    stop: &Stop,
+    state: impl Fn() -> S + Sync,
+    each: impl Fn(&mut S, usize) -> T + Sync,
+) -> Result<(), Stopped> {
+    out.par_chunks_mut(CHUNK).enumerate().try_for_each(|(chunk, out)| {
+        let mut state = state();
+        for (i, slot) in out.iter_mut().enumerate() {
+            if i.is_multiple_of(Stop::STRIDE / 4) {
+                stop.check()?;
+            }
+            *slot = each(&mut state, chunk * CHUNK + i);
+        }
+        Ok(())
+    })
+}
+
+/// Judges a segment by windows around each sample.
+pub(super) fn judge(rule: &Rule, segment: &Segment<'_>, stop: &Stop) -> Result<Judged, Stopped> {
+    let n = segment.len();
+    if n < 3 {
+        return Ok(Judged::unchecked(n));
+    }
+    // A level and the slope are taken off first and added again at the end: what is left is as small as the data
+    // allow, whatever their offset.
+    let level = level(segment.y);
+    let mut base = vec![0.0; n];
+    if rule.detrend {
+        baseline::add_slope(segment, rule.width, &mut base, stop)?;
+    }
+    let windows = Windows::new(n, rule.width, rule.edge);
+    let mut x = windows.padded(segment.y.iter().zip(&base).map(|(y, b)| y - level - b), -level);
+    let mut figures = vec![[0.0; 2]; n];
+    let state = || Statistics::new(rule);
+    sweep(&mut figures, stop, state, |s, c| {
+        let range = windows.range(c);
+        s.move_to(&x, range.clone(), range.start);
+        s.figures()
+    })?;
+    let limits = Limits::new(rule.pooled.then_some(&figures), segment);
+    if rule.feedback {
+        base.iter_mut().for_each(|b| *b += level);
+        return feed_back(rule, segment, &windows, &mut x, &base, &figures, &limits, stop);
+    }
+    let expected = figures.iter().zip(&base).map(|(f, b)| f[0] + b + level).collect();
+    let scale = figures.iter().map(|f| limits.bound(f[1])).collect();
+    Ok(Judged::gated(segment.y, expected, scale, rule.k))
+}
+
+/// The lower bounds on a window's scale.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits<'a> {
+    segment: Segment<'a>,
+    zero: f64,
+    pooled: f64,
+}
+
+impl<'a> Limits<'a> {
+    /// With the pooled floor, the median scale of all windows on the data as given, when their figures are there.
+    pub(super) fn new(figures: Option<&Vec<[f64; 2]>>, segment: &Segment<'a>) -> Self {
+        let pooled = figures.map_or(0.0, |figures| {
+            let mut scales: Vec<f64> = figures.iter().map(|f| f[1]).filter(|s| !s.is_nan()).collect();
+            if scales.is_empty() { 0.0 } else { median_in_place(&mut scales) }
+        });
+        Self { segment: *segment, zero: segment.zero(), pooled }
+    }
+
+    /// The scale to judge by, for a measured one.
+    #[inline]
+    pub(super) fn bound(&self, scale: f64) -> f64 {
+        self.segment.bounded(scale.max(self.pooled), self.zero)
+    }
+}
+
+/// One pass in which a flagged sample is replaced by its expected value before the window moves on. Windows without
+/// a replaced sample have been measured already.
+#[expect(clippy::too_many_arguments, reason = "the stages of one computation, each handed on once")]
+fn feed_back(
+    rule: &Rule,
+    segment: &Segment<'_>,
+    windows: &Windows,
+    x: &mut [f64],
+    base: &[f64],
+    figures: &[[f64; 2]],
+    limits: &Limits<'_>,
+    stop: &Stop,
+) -> Result<Judged, Stopped> {
+    let n = segment.len();
+    let mut judged = Judged { verdict: vec![Verdict::Normal; n], ..Judged::default() };
+    judged.expected.reserve_exact(n);
+    judged.tolerance.reserve_exact(n);
+    let mut statistics = Statistics::new(rule);
+    // Windows that begin at or before this position hold a replaced sample.
+    let mut touched: Option<usize> = None;
+    for c in 0..n {
+        stop.check_at(c)?;
+        let range = windows.range(c);
+        let [p, scale] = if touched.is_some_and(|last| last >= range.start) {
+            statistics.move_to(x, range.clone(), windows.center(c));
+            statistics.figures()
+        } else {
+            figures[c]
+        };
+        let tolerance = rule.k * limits.bound(scale);
+        judged.expected.push(p + base[c]);
+        judged.tolerance.push(tolerance);
+        let old = x[windows.center(c)];
+        if reaches((old - p).abs(), tolerance) {
+            judged.verdict[c] = Verdict::Outlier;
+            touched = Some(windows.last_touched(c));
+            if windows.replace(x, c, p) > 1 {
+                statistics.forget();
+            } else {
+                statistics.replaced(windows.center(c), &range, old, p);
+            }
+        }
+    }
+    Ok(judged)
+}
+
+#[cfg(test)]
+mod tests;
