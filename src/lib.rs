@@ -8,3 +8,5 @@ pub mod math;
 pub mod stop;
 pub mod param;
 pub mod method;
+pub mod repair;
+pub mod review;
