@@ -10,3 +10,6 @@ pub mod param;
 pub mod method;
 pub mod repair;
 pub mod review;
+pub mod session;
+pub mod score;
+pub mod experiment;

@@ -1,0 +1,370 @@
+//! From a plan to its result: detect, let the analyst's decisions win, repair what is left, fill gaps.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::Setup;
+use crate::error::{Error, Result};
+use crate::method::noise::{self, Scales};
+use crate::method::{Judged, Rate, Segment, Verdict, judge_segments, segments};
+use crate::repair::{self, Damage, Gap};
+use crate::review::{Decision, Decisions, Ruling};
+use crate::stop::{Stop, Stopped};
+use crate::track::{Channel, Samples, Series, Track, lost_samples};
+
+/// What a method says of a channel, before anybody decided anything.
+#[derive(Debug, Clone)]
+pub struct Detection {
+    /// The setup it was made with.
+    pub setup: Setup,
+    /// The stretches between cuts, in positions.
+    pub segments: Vec<Range<usize>>,
+    /// The scales of each of them.
+    pub scales: Vec<Scales>,
+    /// One entry per present sample.
+    pub judged: Judged,
+}
+
+/// A sample that somebody has something to say about.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mark {
+    /// Position among the present samples.
+    pub position: u32,
+    /// What the method says.
+    pub verdict: Verdict,
+    /// What the analyst decided, if anything.
+    pub ruling: Option<Ruling>,
+}
+
+impl Mark {
+    /// What holds: the analyst's word where there is one.
+    #[must_use]
+    pub fn effective(&self) -> Verdict {
+        self.ruling.map_or(self.verdict, Ruling::verdict)
+    }
+
+    /// True when the analyst's word is against what the method now says.
+    #[must_use]
+    pub fn conflict(&self) -> bool {
+        self.ruling.is_some_and(|r| (r == Ruling::Outlier) != (self.verdict == Verdict::Outlier))
+    }
+}
+
+/// Consecutive outliers, within a segment.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Run {
+    /// Position of the first.
+    pub start: usize,
+    /// How many.
+    pub length: usize,
+}
+
+/// A missing sample that is filled.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fill {
+    /// Where it goes.
+    pub place: Place,
+    /// Its time in seconds.
+    pub seconds: f64,
+    /// Its value.
+    pub value: f64,
+}
+
+/// Where a filled sample goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Place {
+    /// The empty cell of this row (from 0).
+    Cell(usize),
+    /// A new row after this one, the n-th of its gap (from 0).
+    NewRow(usize, usize),
+}
+
+/// The result for one channel: the method's word, the analyst's, and the repair.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// What the method says.
+    pub detection: Arc<Detection>,
+    /// Outliers, suspects, and every sample that somebody decided on, by position.
+    pub marks: Vec<Mark>,
+    /// Positions of the outliers that hold, ascending.
+    pub outliers: Vec<usize>,
+    /// What takes the place of each of them; NaN where it is removed.
+    pub fixes: Vec<f64>,
+    /// The runs they form.
+    pub runs: Vec<Run>,
+    /// Missing samples that are filled, by place.
+    pub fills: Vec<Fill>,
+    /// How many of what.
+    pub counts: Counts,
+}
+
+/// How many samples of a channel are what.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
+pub struct Counts {
+    /// Rows of the file.
+    pub rows: usize,
+    /// Samples with a time and a value.
+    pub present: usize,
+    /// Rows without.
+    pub missing: usize,
+    /// Outliers that hold.
+    pub flagged: usize,
+    /// Outliers alone.
+    pub isolated: usize,
+    /// Runs of two and more.
+    pub patches: usize,
+    /// Suspects that nobody decided on.
+    pub suspects: usize,
+    /// Samples with too few neighbours to judge.
+    pub unchecked: usize,
+    /// Outliers that got another value.
+    pub repaired: usize,
+    /// Outliers whose cell stays empty.
+    pub removed: usize,
+    /// Missing samples that were filled.
+    pub filled: usize,
+    /// Decisions of the analyst.
+    pub decisions: usize,
+    /// Decisions that the method contradicts.
+    pub conflicts: usize,
+}
+
+/// Runs the method of `setup` over a channel. With `previous`, a detection of the same channel that differs in a
+/// multiplier that only gates, its scores are used again; the result is the same to the last bit.
+///
+/// # Errors
+/// [`Error::Stopped`]; [`Error::Usage`] when the method needs a rate channel and has none.
+pub fn detect(
+    track: &Track,
+    channel: &Channel,
+    samples: &Samples,
+    setup: &Setup,
+    previous: Option<&Detection>,
+    stop: &Stop,
+) -> Result<Detection> {
+    let series = samples.series(channel, &track.time);
+    if let Some(previous) = previous
+        && let Some(judged) = regated(previous, setup, &series)
+    {
+        let (segments, scales) = (previous.segments.clone(), previous.scales.clone());
+        return Ok(Detection { setup: setup.clone(), segments, scales, judged });
+    }
+    let rate = rate_channel(track, setup)?.map(|c| Series::of(c, &track.time));
+    let rate = rate.as_ref().map(|r| Rate { t: &r.t, y: &r.y });
+    let segments = segments(&series, &setup.settings);
+    stop.check()?;
+    let scales = noise::scales(&series, &segments, &setup.settings);
+    let judged = judge_segments(setup.method, &series, (&segments, &scales), rate, &setup.settings, stop)?;
+    Ok(Detection { setup: setup.clone(), segments, scales, judged })
+}
+
+impl Detection {
+    /// The same detection under a setup that differs in the repair alone.
+    #[must_use]
+    pub fn with_repair(&self, setup: &Setup) -> Self {
+        Self { setup: setup.clone(), ..self.clone() }
+    }
+}
+
+fn rate_channel<'a>(track: &'a Track, setup: &Setup) -> Result<Option<&'a Channel>> {
+    let id = setup.method.about().id;
+    if !setup.method.about().needs_rate {
+        return Ok(None);
+    }
+    let names = || track.channels.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", ");
+    let Some(name) = &setup.rate else {
+        return Err(Error::usage(
+            format!("{id} needs a channel that measures the rate of the first"),
+            format!("name it with --rate; channels: {}", names()),
+        ));
+    };
+    let found = track.channel(name);
+    found.map(Some).ok_or_else(|| {
+        Error::usage(format!("{name}: there is no such channel for the rate"), format!("channels: {}", names()))
+    })
+}
+
+/// The judgement under `setup` when it differs from that of `previous` in the gate alone.
+fn regated(previous: &Detection, setup: &Setup, series: &Series<'_>) -> Option<Judged> {
+    let key = setup.method.gate(&setup.settings)?;
+    let mut same = previous.setup.settings.clone();
+    same.set(key, key, setup.settings.get(key)?).ok()?;
+    let comparable = previous.setup.method.about().id == setup.method.about().id
+        && same == setup.settings
+        && previous.setup.rate == setup.rate
+        && previous.judged.scale.len() == series.len();
+    comparable.then(|| previous.judged.regated(&series.y, setup.settings.real(key)))
+}
+
+/// Lets the decisions win over the detection, repairs the outliers that hold, and fills gaps.
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for the result any more.
+pub fn settle(
+    track: &Track,
+    channel: &Channel,
+    samples: &Samples,
+    detection: Arc<Detection>,
+    decisions: &Decisions,
+    stop: &Stop,
+) -> std::result::Result<Outcome, Stopped> {
+    let series = samples.series(channel, &track.time);
+    let marks = marks(&detection.judged, &series, decisions);
+    let outliers: Vec<usize> =
+        marks.iter().filter(|m| m.effective() == Verdict::Outlier).map(|m| m.position as usize).collect();
+    let mut fixes = Vec::with_capacity(outliers.len());
+    let mut runs = Vec::new();
+    let mut fills = Vec::new();
+    let gaps = gaps_to_fill(track, &series, &detection);
+    for (range, scales) in detection.segments.iter().zip(&detection.scales) {
+        stop.check()?;
+        let from = outliers.partition_point(|&i| i < range.start);
+        let to = outliers.partition_point(|&i| i < range.end);
+        let inside = gaps.iter().filter(|g| range.start < g.before && g.before < range.end);
+        let inside: Vec<&GapPlaces> = inside.collect();
+        if from == to && inside.is_empty() {
+            continue;
+        }
+        let local: Vec<usize> = outliers[from..to].iter().map(|i| i - range.start).collect();
+        let segment = Segment::of(&series, range, *scales, None);
+        let part = detection.judged.slice(range.clone());
+        let own = detection.setup.method.own_repair(&segment, &detection.setup.settings, &part, &local);
+        let expected: Vec<f64> = local.iter().map(|&i| part.expected[i]).collect();
+        let damage = Damage { t: segment.t, y: segment.y, outliers: &local, own: &own, expected: &expected };
+        fixes.extend(repair::repair(&damage, &detection.setup.repair));
+        runs.extend(repair::runs(&local).map(|r| Run { start: range.start + local[r.start], length: r.len() }));
+        let holes: Vec<Gap> = inside
+            .iter()
+            .map(|g| Gap { before: g.before - range.start, at: g.at.iter().map(|a| a.1).collect() })
+            .collect();
+        for (gap, values) in inside.iter().zip(repair::fill(&damage, &holes, &detection.setup.repair)) {
+            let values = values.unwrap_or_default();
+            fills.extend(gap.at.iter().zip(values).map(|(&(place, seconds), value)| Fill { place, seconds, value }));
+        }
+    }
+    fills.sort_by_key(|f: &Fill| f.place);
+    let counts = count(track.rows, &detection, &marks, &fixes, &runs, fills.len());
+    Ok(Outcome { detection, marks, outliers, fixes, runs, fills, counts })
+}
+
+impl Outcome {
+    /// The mark of the sample at `position`, if somebody has something to say about it.
+    #[must_use]
+    pub fn mark(&self, position: usize) -> Option<&Mark> {
+        let at = self.marks.binary_search_by_key(&position, |m| m.position as usize).ok()?;
+        self.marks.get(at)
+    }
+
+    /// What holds for the sample at `position`.
+    #[must_use]
+    pub fn verdict(&self, position: usize) -> Verdict {
+        match self.mark(position) {
+            Some(mark) => mark.effective(),
+            None => self.detection.judged.verdict.get(position).copied().unwrap_or(Verdict::Missing),
+        }
+    }
+
+    /// What takes the place of the outlier at `position`: none when it is no outlier, NaN when it is removed.
+    #[must_use]
+    pub fn fix(&self, position: usize) -> Option<f64> {
+        self.outliers.binary_search(&position).ok().and_then(|i| self.fixes.get(i).copied())
+    }
+
+    /// The run that holds the outlier at `position`.
+    #[must_use]
+    pub fn run(&self, position: usize) -> Option<&Run> {
+        let after = self.runs.partition_point(|r| r.start <= position);
+        let run = self.runs.get(after.checked_sub(1)?)?;
+        (position < run.start + run.length).then_some(run)
+    }
+}
+
+fn marks(judged: &Judged, series: &Series<'_>, decisions: &Decisions) -> Vec<Mark> {
+    let decided = |(row, d): (u32, &Decision)| series.position(row as usize).map(|p| (p, d.ruling));
+    let mut decided = decisions.iter().filter_map(decided).peekable();
+    let mut marks = Vec::new();
+    #[expect(clippy::cast_possible_truncation, reason = "the loader refuses files of 2^32 rows and more")]
+    for (i, &verdict) in judged.verdict.iter().enumerate() {
+        let ruling = decided.next_if(|d| d.0 == i).map(|d| d.1);
+        if ruling.is_some() || matches!(verdict, Verdict::Outlier | Verdict::Suspect) {
+            marks.push(Mark { position: i as u32, verdict, ruling });
+        }
+    }
+    marks
+}
+
+fn count(rows: usize, detection: &Detection, marks: &[Mark], fixes: &[f64], runs: &[Run], filled: usize) -> Counts {
+    let judged = &detection.judged;
+    let decided_unchecked = marks.iter().filter(|m| m.verdict == Verdict::Unchecked).count();
+    let removed = fixes.iter().filter(|v| v.is_nan()).count();
+    let isolated = runs.iter().filter(|r| r.length == 1).count();
+    Counts {
+        rows,
+        present: judged.verdict.len(),
+        missing: rows - judged.verdict.len(),
+        flagged: fixes.len(),
+        isolated,
+        patches: runs.len() - isolated,
+        suspects: marks.iter().filter(|m| m.effective() == Verdict::Suspect).count(),
+        unchecked: judged.verdict.iter().filter(|v| **v == Verdict::Unchecked).count() - decided_unchecked,
+        repaired: fixes.len() - removed,
+        removed,
+        filled,
+        decisions: marks.iter().filter(|m| m.ruling.is_some()).count(),
+        conflicts: marks.iter().filter(|m| m.conflict()).count(),
+    }
+}
+
+/// The missing samples just before a present one.
+struct GapPlaces {
+    before: usize,
+    at: Vec<(Place, f64)>,
+}
+
+/// More new rows than this many per row of the file are a mistake in the settings (`max_gap = off`, say), not a
+/// record: such a gap is left open.
+const MOST_NEW_ROWS: usize = 4;
+
+/// The gaps inside segments that `fill_gaps` wants filled.
+fn gaps_to_fill(track: &Track, series: &Series<'_>, detection: &Detection) -> Vec<GapPlaces> {
+    let with_rows = match detection.setup.repair.word(repair::FILL_GAPS.key) {
+        "cells" => false,
+        "rows" => true,
+        _ => return Vec::new(),
+    };
+    let seconds = &track.time.seconds;
+    let row_interval = Series::new(seconds, seconds).interval;
+    let mut room = if with_rows { track.rows.saturating_mul(MOST_NEW_ROWS) } else { 0 };
+    let mut gaps = Vec::new();
+    for segment in &detection.segments {
+        for before in segment.start + 1..segment.end {
+            let mut at = Vec::new();
+            // Rows with a usable time from the present sample before the gap to the one after it.
+            let (first, last) = (series.row(before - 1), series.row(before));
+            if last == first + 1 && !with_rows {
+                continue;
+            }
+            let mut from = first;
+            for row in (first + 1..=last).filter(|&r| seconds[r].is_finite()) {
+                let step = seconds[row] - seconds[from];
+                let lost = lost_samples(step, row_interval);
+                if with_rows && lost <= room {
+                    room -= lost;
+                    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+                    at.extend((0..lost).map(|k| {
+                        let part = (k + 1) as f64 / (lost + 1) as f64;
+                        (Place::NewRow(from, k), seconds[from] + step * part)
+                    }));
+                }
+                if row < last {
+                    at.push((Place::Cell(row), seconds[row]));
+                }
+                from = row;
+            }
+            if !at.is_empty() {
+                gaps.push(GapPlaces { before, at });
+            }
+        }
+    }
+    gaps
+}

@@ -1,0 +1,233 @@
+//! Opening a saved session: its record is loaded, and everything that the session says of it is verified.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::document::{Read, WrittenDecision, read_with_texts};
+use super::{Outcome, Plan, Recorded, Session, Setup, changes, clean_sha256, detect, settle};
+use crate::error::{Error, Result};
+use crate::stop::Stop;
+use crate::track::{LoadOptions, RowChecks, Samples, Source, Track, for_each_row, load};
+
+/// A session with its record.
+#[derive(Debug)]
+pub struct Opened {
+    /// The session.
+    pub session: Session,
+    /// Its record.
+    pub track: Track,
+    /// What the user should know: decisions that no longer fit changed data, say.
+    pub notes: Vec<String>,
+}
+
+/// Reads the session at `path` and loads its record. The SHA-256, the number of rows, and the row, time and value
+/// of each decision must be those of the session; with `accept_changed` the data may differ, and decisions that
+/// no longer fit them are left out, with a note each.
+///
+/// # Errors
+/// [`Error::Changed`] with the first difference; [`Error::Session`] for a decision that does not fit its row; and
+/// what reading and loading give.
+pub fn open(path: &Path, accept_changed: bool) -> Result<Opened> {
+    open_with(path, accept_changed, true)
+}
+
+/// [`open`] that loads every channel of the record, not only those of the session, and adds a plan with the default
+/// method for each of the others: for the workbench.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_all(path: &Path, accept_changed: bool) -> Result<Opened> {
+    let mut opened = open_with(path, accept_changed, false)?;
+    let others = Session::new(&opened.track, LoadOptions::default(), &Setup::standard());
+    let known: Vec<String> = opened.session.plans.iter().map(|p| p.channel.clone()).collect();
+    opened.session.plans.extend(others.plans.into_iter().filter(|p| !known.contains(&p.channel)));
+    Ok(opened)
+}
+
+fn open_with(path: &Path, accept_changed: bool, only_planned: bool) -> Result<Opened> {
+    let Read { mut session, texts } = read_with_texts(path)?;
+    let mut channels: Vec<String> = Vec::new();
+    if only_planned {
+        channels.extend(session.plans.iter().map(|p| p.channel.clone()));
+        for rate in session.plans.iter().filter_map(|p| p.setup.rate.clone()) {
+            if !channels.contains(&rate) {
+                channels.push(rate);
+            }
+        }
+    }
+    let options = LoadOptions { channels, ..session.data.options.clone() };
+    let track = load(&session.data.source, &options)?;
+    let mut notes = Vec::new();
+    let changed = track.sha256 != session.data.sha256;
+    let misfits = misfits(&track, &session.plans, &texts)?;
+    if changed {
+        let what = difference(&session, &track, misfits.first())?;
+        if !accept_changed {
+            return Err(Error::Changed { path: file_of(&session.data.source), what });
+        }
+        notes.push(format!("the data are not those of the session: {what}"));
+    } else if let Some(misfit) = misfits.first() {
+        return Err(Error::Session {
+            path: path.to_path_buf(),
+            line: None,
+            what: misfit.what.clone(),
+            help: "restore the session file, or take the decision out of it".into(),
+        });
+    }
+    for misfit in misfits {
+        session.plans[misfit.plan].decisions.set(misfit.row, None);
+        notes.push(format!("left out: {}", misfit.what));
+    }
+    session.data.sha256.clone_from(&track.sha256);
+    session.data.rows = track.rows;
+    Ok(Opened { session, track, notes })
+}
+
+/// A decision that does not fit the record.
+struct Misfit {
+    plan: usize,
+    row: u32,
+    what: String,
+}
+
+fn misfits(track: &Track, plans: &[Plan], texts: &[Vec<WrittenDecision>]) -> Result<Vec<Misfit>> {
+    // All decisions about a row, with the plan and the column they are about.
+    let mut wanted: BTreeMap<usize, Vec<(usize, usize, &WrittenDecision)>> = BTreeMap::new();
+    for (index, (plan, texts)) in plans.iter().zip(texts).enumerate() {
+        let column = track.channel(&plan.channel).map(|c| c.column).unwrap_or_default();
+        for text in texts {
+            wanted.entry(text.row as usize - 1).or_default().push((index, column, text));
+        }
+    }
+    let mut misfits = Vec::new();
+    if wanted.is_empty() {
+        return Ok(misfits);
+    }
+    let mut misfit = |plan: usize, text: &WrittenDecision, what: String| {
+        let what = format!("row {} of {}: {what}", text.row, plans[plan].channel);
+        misfits.push(Misfit { plan, row: text.row - 1, what });
+    };
+    for (_, beyond) in wanted.range(track.rows..) {
+        for (plan, _, text) in beyond {
+            misfit(*plan, text, format!("decided on, but the record has {} rows", track.rows));
+        }
+    }
+    for_each_row(track, |row, cells| {
+        for (plan, column, text) in wanted.get(&row).into_iter().flatten() {
+            let value = cells.text(*column);
+            if value != text.value.as_str() {
+                misfit(*plan, text, format!("the value is {value:?}, the decision was made on {:?}", text.value));
+                continue;
+            }
+            let time = track.time.column.map(|c| cells.text(c)).unwrap_or_default();
+            if !text.time.is_empty() && time != text.time.as_str() && track.time.column.is_some() {
+                misfit(*plan, text, format!("the time is {time:?}, the decision was made at {:?}", text.time));
+            } else if channel_value(track, &plans[*plan].channel, row).is_nan() {
+                misfit(*plan, text, "decided on, but it has no value or no usable time".into());
+            }
+        }
+        Ok(())
+    })?;
+    Ok(misfits)
+}
+
+fn channel_value(track: &Track, channel: &str, row: usize) -> f64 {
+    let value = track.channel(channel).and_then(|c| c.values.get(row).copied()).unwrap_or(f64::NAN);
+    let time = track.time.seconds.get(row).copied().unwrap_or(f64::NAN);
+    if time.is_nan() { f64::NAN } else { value }
+}
+
+/// The first difference that can be seen between the record and what the session says of it.
+fn difference(session: &Session, track: &Track, misfit: Option<&Misfit>) -> Result<String> {
+    let checks = session.data.row_check.as_deref().and_then(RowChecks::parse);
+    if let Some(then) = checks {
+        return Ok(then.first_difference(&RowChecks::of(track)?, session.data.rows, track.rows));
+    }
+    if session.data.rows != track.rows {
+        return Ok(format!("it has {} rows, the session was made on {}", track.rows, session.data.rows));
+    }
+    Ok(misfit.map_or_else(|| "same number of rows, but another SHA-256".into(), |m| m.what.clone()))
+}
+
+fn file_of(source: &Source) -> PathBuf {
+    match source {
+        Source::File(path) => path.clone(),
+        Source::BuiltIn { name, .. } => PathBuf::from(name),
+    }
+}
+
+/// The samples and outcomes of every plan of a session, in the order of the plans.
+#[derive(Debug)]
+pub struct Analysed {
+    /// For each plan: index of its channel in the track, its samples, its outcome.
+    pub channels: Vec<(usize, Samples, Outcome)>,
+}
+
+impl Analysed {
+    /// Runs every plan of `session`.
+    ///
+    /// # Errors
+    /// What [`detect`] and [`settle`] give; [`Error::Usage`] for a channel that the record does not have.
+    pub fn of(session: &Session, track: &Track, stop: &Stop) -> Result<Self> {
+        use rayon::prelude::*;
+        let one = |plan: &Plan| {
+            let index = track.channels.iter().position(|c| c.name == plan.channel).ok_or_else(|| {
+                let names: Vec<&str> = track.channels.iter().map(|c| c.name.as_str()).collect();
+                Error::usage(
+                    format!("{}: there is no such channel", plan.channel),
+                    format!("channels: {}", names.join(", ")),
+                )
+            })?;
+            let channel = &track.channels[index];
+            let samples = Samples::of(channel, &track.time);
+            let setup: &Setup = &plan.setup;
+            let detection = Arc::new(detect(track, channel, &samples, setup, None, stop)?);
+            let outcome = settle(track, channel, &samples, detection, &plan.decisions, stop)?;
+            Ok((index, samples, outcome))
+        };
+        let channels = session.plans.par_iter().map(one).collect::<Result<_>>()?;
+        Ok(Self { channels })
+    }
+
+    /// What changes in the file.
+    #[must_use]
+    pub fn changes(&self, track: &Track) -> crate::track::Changes {
+        let all: Vec<_> = self.channels.iter().map(|(i, s, o)| (*i, s, o)).collect();
+        changes(track, &all)
+    }
+
+    /// Outliers of all channels.
+    #[must_use]
+    pub fn flagged(&self) -> usize {
+        self.channels.iter().map(|(_, _, o)| o.counts.flagged).sum()
+    }
+
+    /// What a saved session records of this result.
+    ///
+    /// # Errors
+    /// As [`clean_sha256`].
+    pub fn recorded(&self, track: &Track) -> Result<Recorded> {
+        let clean_sha256 = clean_sha256(track, &self.changes(track))?;
+        Ok(Recorded { flagged: self.flagged(), clean_sha256 })
+    }
+}
+
+/// How this result differs from what the session recorded; empty when it does not.
+#[must_use]
+pub fn check(recorded: Option<&Recorded>, now: &Recorded) -> Vec<String> {
+    let Some(then) = recorded else {
+        return vec!["the session has no [result] to compare with: save it once more".into()];
+    };
+    let mut differences = Vec::new();
+    if then.flagged != now.flagged {
+        differences.push(format!("{} samples flagged, the session recorded {}", now.flagged, then.flagged));
+    }
+    if then.clean_sha256 != now.clean_sha256 {
+        differences.push(format!(
+            "the cleaned file has SHA-256 {}, the session recorded {}",
+            now.clean_sha256, then.clean_sha256
+        ));
+    }
+    differences
+}
