@@ -13,3 +13,7 @@ pub mod review;
 pub mod session;
 pub mod score;
 pub mod experiment;
+pub mod job;
+pub mod report;
+pub mod cli;
+pub mod batch;

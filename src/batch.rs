@@ -1,0 +1,103 @@
+//! The commands that need no screen.
+
+use std::io::Write;
+use std::path::Path;
+
+use clap::CommandFactory;
+
+use crate::cli::{Cli, Command, Load, OutputArgs};
+use crate::error::{Error, Result};
+use crate::experiment;
+use crate::report::Inspection;
+use crate::track::{Source, load};
+
+mod clean;
+mod methods;
+mod replay;
+
+pub use methods::markdown as methods_table;
+
+/// How a command ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// All went well.
+    Done,
+    /// A comparison failed.
+    Differs,
+}
+
+/// Runs a command; what it prints goes to `out`.
+///
+/// # Errors
+/// Whatever the command cannot do; nothing has been written then.
+pub fn run(command: Command, out: &mut dyn Write) -> Result<Ending> {
+    match command {
+        Command::Inspect { file, load, json } => inspect(&file, &load, json, out),
+        Command::Clean { file, shared, outputs, save_session } => {
+            clean::run(&file, &shared, &outputs, save_session.as_deref(), out)
+        }
+        Command::Replay { sessions, check, accept_changed_data, outputs, threads } => {
+            set_threads(threads)?;
+            if check {
+                replay::check_all(&sessions, accept_changed_data, &outputs, out)
+            } else {
+                replay::run_all(&sessions, accept_changed_data, &outputs, out)
+            }
+        }
+        Command::Methods { id, json, markdown } => methods::run(id.as_deref(), json, markdown, out),
+        Command::Simulate { experiment, seed } => {
+            let experiment = experiment::find(&experiment)?;
+            print(out, &(experiment.csv)(seed.unwrap_or(experiment.seed)))
+        }
+        Command::Completions { shell } => {
+            clap_complete::generate(shell, &mut Cli::command(), "wildpoint", &mut &mut *out);
+            Ok(Ending::Done)
+        }
+        Command::Man => {
+            clap_mangen::Man::new(Cli::command()).render(out).map_err(Error::io("write", "standard output"))?;
+            Ok(Ending::Done)
+        }
+    }
+}
+
+/// Limits the worker threads to `threads`.
+///
+/// # Errors
+/// [`Error::Usage`] for 0.
+pub fn set_threads(threads: Option<usize>) -> Result<()> {
+    let Some(threads) = threads else { return Ok(()) };
+    if threads == 0 {
+        return Err(Error::usage("--threads 0: no thread, no work", "give 1 or more, or leave it out for all cores"));
+    }
+    // It can only have been set before by an earlier call in the same process, which keeps its setting.
+    let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+    Ok(())
+}
+
+fn print(out: &mut dyn Write, text: &str) -> Result<Ending> {
+    out.write_all(text.as_bytes()).map_err(Error::io("write", "standard output"))?;
+    Ok(Ending::Done)
+}
+
+fn print_json(out: &mut dyn Write, value: &impl serde::Serialize) -> Result<Ending> {
+    let text = serde_json::to_string_pretty(value)
+        .map_err(|e| Error::io("write", "standard output")(std::io::Error::other(e)))?;
+    print(out, &(text + "\n"))
+}
+
+fn inspect(file: &Path, options: &Load, json: bool, out: &mut dyn Write) -> Result<Ending> {
+    let track = load(&Source::File(file.to_path_buf()), &options.options(None))?;
+    let inspection = Inspection::of(&track);
+    if json { print_json(out, &inspection) } else { print(out, &inspection.text()) }
+}
+
+/// Tells on standard output what came out, as the options want it.
+fn tell(outputs: &OutputArgs, summary: &crate::report::Summary, out: &mut dyn Write) -> Result<Ending> {
+    if outputs.json {
+        print_json(out, summary)
+    } else if outputs.quiet {
+        Ok(Ending::Done)
+    } else {
+        print(out, &summary.text())
+    }
+}

@@ -1,0 +1,68 @@
+//! `clean`: detect and repair; and the writing of outputs that `replay` shares.
+
+use std::io::Write;
+use std::path::Path;
+
+use super::{Ending, set_threads, tell};
+use crate::cli::{OutputArgs, Shared};
+use crate::error::{Error, Result};
+use crate::report::{Summary, diagnostics, flags};
+use crate::session::{Analysed, Session, document, write_cleaned};
+use crate::stop::Stop;
+use crate::track::{Outputs, Source, Track, load};
+
+pub(super) fn run(
+    file: &Path,
+    shared: &Shared,
+    outputs: &OutputArgs,
+    save_session: Option<&Path>,
+    out: &mut dyn Write,
+) -> Result<Ending> {
+    set_threads(shared.threads)?;
+    let setup = shared.setup()?;
+    let options = shared.load.options(shared.rate.as_deref());
+    let track = load(&Source::File(file.to_path_buf()), &options)?;
+    let mut session = Session::new(&track, shared.load.options(None), &setup);
+    // A rate channel that was loaded beside the named ones is not judged.
+    if !shared.load.channel.is_empty() {
+        session.plans.retain(|p| shared.load.channel.contains(&p.channel) || shared.rate.as_ref() != Some(&p.channel));
+    }
+    let analysed = Analysed::of(&session, &track, &Stop::never())?;
+    let mut summary = Summary::of(&track, &session, &analysed);
+    let inputs: Vec<&Path> = track.source.path().into_iter().collect();
+    let mut files = Outputs::new(outputs.force, &inputs);
+    stage(&mut files, outputs, &track, &session, &analysed, &mut summary)?;
+    if let Some(path) = save_session {
+        let text = document(&mut session, &track, &analysed, path)?;
+        files.stage(path, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", path)))?;
+    }
+    files.commit()?;
+    tell(outputs, &summary, out)
+}
+
+/// Prepares the outputs that were asked for.
+pub(super) fn stage(
+    files: &mut Outputs,
+    outputs: &OutputArgs,
+    track: &Track,
+    session: &Session,
+    analysed: &Analysed,
+    summary: &mut Summary,
+) -> Result<()> {
+    if let Some(path) = &outputs.output {
+        let changes = analysed.changes(track);
+        let mut sha256 = None;
+        files.stage(path, |w| {
+            sha256 = Some(write_cleaned(track, &changes, w)?);
+            Ok(())
+        })?;
+        summary.clean_sha256 = sha256;
+    }
+    if let Some(path) = &outputs.flags {
+        files.stage(path, |w| flags(track, session, analysed, w))?;
+    }
+    if let Some(path) = &outputs.diagnostics {
+        files.stage(path, |w| diagnostics(track, session, analysed, w))?;
+    }
+    Ok(())
+}

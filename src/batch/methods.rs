@@ -1,0 +1,151 @@
+//! `methods`: the registry, for people, for programs and for the README.
+
+use std::fmt::Write as _;
+use std::io::Write;
+
+use serde::Serialize;
+
+use super::{Ending, print, print_json};
+use crate::error::Result;
+use crate::method::{METHODS, Method};
+use crate::param::{Param, Value};
+use crate::repair::{PARAMS, REPAIRS};
+use crate::session::method_of_id;
+
+#[derive(Serialize)]
+struct Listed {
+    id: &'static str,
+    name: &'static str,
+    family: &'static str,
+    source: &'static str,
+    advice: &'static str,
+    needs_rate: bool,
+    parameters: Vec<ListedParam>,
+}
+
+#[derive(Serialize)]
+struct ListedParam {
+    key: &'static str,
+    help: String,
+    unit: &'static str,
+    values: String,
+    default: serde_json::Value,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    paper: Option<serde_json::Value>,
+}
+
+pub(super) fn run(id: Option<&str>, json: bool, as_markdown: bool, out: &mut dyn Write) -> Result<Ending> {
+    if as_markdown {
+        return print(out, &markdown());
+    }
+    match (id, json) {
+        (Some(id), true) => print_json(out, &listed(method_of_id(id)?)),
+        (Some(id), false) => print(out, &page(method_of_id(id)?)),
+        (None, true) => print_json(out, &METHODS.iter().map(|m| listed(*m)).collect::<Vec<_>>()),
+        (None, false) => print(out, &list()),
+    }
+}
+
+fn listed(method: &dyn Method) -> Listed {
+    let about = method.about();
+    Listed {
+        id: about.id,
+        name: about.name,
+        family: about.family,
+        source: about.source,
+        advice: about.advice,
+        needs_rate: about.needs_rate,
+        parameters: about.params.iter().map(listed_param).collect(),
+    }
+}
+
+fn listed_param(param: &Param) -> ListedParam {
+    ListedParam {
+        key: param.key,
+        help: one_line(param.help),
+        unit: param.unit,
+        values: param.range(),
+        default: json(param.default),
+        paper: param.paper.map(json),
+    }
+}
+
+fn json(value: Value) -> serde_json::Value {
+    match value {
+        Value::Whole(n) => n.into(),
+        Value::Real(x) => x.into(),
+        Value::Word(w) => w.into(),
+        Value::Switch(b) => b.into(),
+    }
+}
+
+fn list() -> String {
+    let mut out = String::new();
+    let mut family = "";
+    for about in METHODS.iter().map(|m| m.about()) {
+        if about.family != family {
+            let _ = writeln!(out, "{}{}", if family.is_empty() { "" } else { "\n" }, about.family);
+            family = about.family;
+        }
+        let _ = writeln!(out, "  {:18} {} ({})", about.id, about.name, about.source);
+    }
+    out.push_str("\nrepairs\n");
+    for repair in REPAIRS {
+        let _ = writeln!(out, "  {:18} {}", repair.id, repair.help);
+    }
+    out.push_str("\n`wildpoint methods ID` explains one, with its parameters.\n");
+    out
+}
+
+fn page(method: &dyn Method) -> String {
+    let about = method.about();
+    let mut out = format!("{}: {} ({}, {})\n\n", about.id, about.name, about.family, about.source);
+    wrap(&mut out, "", &one_line(about.advice));
+    for (title, params) in [("parameters", about.params), ("parameters of repair", PARAMS)] {
+        let _ = writeln!(out, "\n{title}");
+        for p in params {
+            let paper = p.paper.map_or(String::new(), |v| format!(", paper {v}"));
+            let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
+            let _ = writeln!(out, "  {:16} default {}{paper}  [{}]{unit}", p.key, p.default, p.range());
+            wrap(&mut out, "                   ", &one_line(p.help));
+        }
+    }
+    out
+}
+
+/// The methods table of the README.
+#[must_use]
+pub fn markdown() -> String {
+    let mut out = String::from("| id | method | family | source | parameters (default) |\n|---|---|---|---|---|\n");
+    for about in METHODS.iter().map(|m| m.about()) {
+        let params: Vec<String> = about.params.iter().map(|p| format!("`{}` {}", p.key, p.default)).collect();
+        let _ = writeln!(
+            out,
+            "| `{}` | {} | {} | {} | {} |",
+            about.id,
+            about.name,
+            about.family,
+            about.source,
+            params.join(", ")
+        );
+    }
+    out
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn wrap(out: &mut String, indent: &str, text: &str) {
+    const WIDTH: usize = 98;
+    let mut line = String::from(indent);
+    for word in text.split(' ') {
+        if line.len() + word.len() > WIDTH && line.len() > indent.len() {
+            let _ = writeln!(out, "{}", line.trim_end());
+            line = String::from(indent);
+        }
+        line.push_str(word);
+        line.push(' ');
+    }
+    let _ = writeln!(out, "{}", line.trim_end());
+}

@@ -1,0 +1,354 @@
+//! The command line: what can be typed, and what it means.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::error::Result;
+use crate::method::shared::MAX_GAP;
+use crate::repair;
+use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
+use crate::track::{Delimiter, LoadOptions};
+
+/// Find, review and repair wild points of tracking records.
+///
+/// Without a command: opens the workbench on FILE, on a SESSION saved before, or on the built-in demonstration
+/// record. Where there is no terminal, prints one still frame and a summary.
+#[derive(Debug, Parser)]
+#[command(name = "wildpoint", version, args_conflicts_with_subcommands = true, max_term_width = 100)]
+pub struct Cli {
+    /// What to do without a screen.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// A record (CSV and relatives), or a session (.toml).
+    pub file: Option<PathBuf>,
+    /// Size of the still frame that is printed where there is no terminal: WIDTHxHEIGHT.
+    #[arg(long, value_name = "WxH", default_value = "80x24", value_parser = size)]
+    pub size: (u16, u16),
+    /// Colours of the screen.
+    #[arg(long, value_enum, default_value_t = Color::Auto)]
+    pub color: Color,
+    /// Glyphs of the screen.
+    #[arg(long, value_enum, default_value_t = Glyphs::Auto)]
+    pub glyphs: Glyphs,
+    /// Colours for a light background.
+    #[arg(long)]
+    pub light: bool,
+    /// How to load and judge.
+    #[command(flatten)]
+    pub shared: Shared,
+}
+
+/// Colours of the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Color {
+    /// What the terminal says it can; none with `NO_COLOR`.
+    Auto,
+    /// None: bold, reverse and underline only.
+    Never,
+    /// The 16 colours of the terminal.
+    #[value(name = "16")]
+    Sixteen,
+    /// 256 colours.
+    #[value(name = "256")]
+    Indexed,
+    /// 24-bit colours.
+    True,
+}
+
+/// Glyphs of the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Glyphs {
+    /// Unicode where the locale is UTF-8.
+    Auto,
+    /// Braille, blocks and markers.
+    Unicode,
+    /// Braille only: for terminals in which other symbols are two cells wide.
+    Braille,
+    /// Plain ASCII.
+    Ascii,
+}
+
+/// The commands that need no screen.
+#[derive(Debug, Subcommand)]
+#[expect(clippy::large_enum_variant, reason = "one is made per run of the program")]
+pub enum Command {
+    /// Print what the loader understands of a file: columns, times, gaps, noise, bad rows.
+    Inspect {
+        /// The record.
+        file: PathBuf,
+        /// How to load it.
+        #[command(flatten)]
+        load: Load,
+        /// Print JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Detect and repair wild points of a file.
+    Clean {
+        /// The record.
+        file: PathBuf,
+        /// How to load and judge it.
+        #[command(flatten)]
+        shared: Shared,
+        /// What to write.
+        #[command(flatten)]
+        outputs: OutputArgs,
+        /// Write the session that would reproduce this.
+        #[arg(long, value_name = "SESSION")]
+        save_session: Option<PathBuf>,
+    },
+    /// Run saved sessions again.
+    Replay {
+        /// Session files; several only with --check or without outputs.
+        #[arg(required = true)]
+        sessions: Vec<PathBuf>,
+        /// Compare with the result that each session recorded; write nothing. Exit status 1 when one differs.
+        #[arg(long, conflicts_with_all = ["output", "flags", "diagnostics"])]
+        check: bool,
+        /// Go on although the data are not those of the session.
+        #[arg(long)]
+        accept_changed_data: bool,
+        /// What to write.
+        #[command(flatten)]
+        outputs: OutputArgs,
+        /// Threads to use; all cores by default.
+        #[arg(long, value_name = "N")]
+        threads: Option<usize>,
+    },
+    /// List the methods, or explain one with its parameters.
+    Methods {
+        /// Id of a method.
+        id: Option<String>,
+        /// Print JSON.
+        #[arg(long)]
+        json: bool,
+        /// Print the table of the README.
+        #[arg(long, hide = true)]
+        markdown: bool,
+    },
+    /// Write simulated data.
+    Simulate {
+        /// Which.
+        experiment: String,
+        /// Seed of the random numbers.
+        #[arg(long)]
+        seed: Option<u64>,
+    },
+    /// Print shell completions.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page.
+    Man,
+}
+
+/// How to load a record.
+#[derive(Debug, Clone, Default, Args)]
+pub struct Load {
+    /// Time column [default: a column that looks like time, else the sample number].
+    #[arg(long, value_name = "COLUMN")]
+    pub time: Option<String>,
+    /// Channel to work on; repeatable [default: every numeric column that is neither time nor truth].
+    #[arg(long, value_name = "COLUMN")]
+    pub channel: Vec<String>,
+    /// Column of 0 and 1 that marks the real outliers.
+    #[arg(long, value_name = "COLUMN")]
+    pub truth: Option<String>,
+    /// A cell text that means "no value"; repeatable, besides empty, NaN, NA, null and -.
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
+    pub missing: Vec<String>,
+    /// What stands between two cells [default: recognised].
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub delimiter: Option<DelimiterArg>,
+    /// `1,5` means one and a half [default: recognised].
+    #[arg(long)]
+    pub decimal_comma: bool,
+    /// The first line is data, not names [default: recognised].
+    #[arg(long)]
+    pub no_header: bool,
+    /// How dates like 1/2/2005 are meant, where the file does not show it.
+    #[arg(long, value_enum, value_name = "ORDER")]
+    pub dates: Option<DateOrder>,
+}
+
+/// What stands between two cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DelimiterArg {
+    /// `,`
+    Comma,
+    /// `;`
+    Semicolon,
+    /// A tab.
+    Tab,
+    /// `|`
+    Pipe,
+    /// Runs of blanks.
+    Blanks,
+}
+
+/// How dates with the year last are meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DateOrder {
+    /// 1/2/2005 is in February.
+    DayFirst,
+    /// 1/2/2005 is in January.
+    MonthFirst,
+}
+
+/// How to load and judge a record.
+#[derive(Debug, Clone, Default, Args)]
+pub struct Shared {
+    /// How to load it.
+    #[command(flatten)]
+    pub load: Load,
+    /// Channel that measures the rate of the judged one, for methods that need one.
+    #[arg(long, value_name = "COLUMN")]
+    pub rate: Option<String>,
+    /// Method (see `wildpoint methods`).
+    #[arg(long, value_name = "ID", default_value = DEFAULT_METHOD)]
+    pub method: String,
+    /// Values to start from: those that work on real tracks, or those of the source documents.
+    #[arg(long, value_enum, default_value_t = PresetArg::Default)]
+    pub preset: PresetArg,
+    /// A parameter of the method or the repair; repeatable (see `wildpoint methods ID`).
+    #[arg(long, value_name = "KEY=VALUE", value_parser = pair)]
+    pub set: Vec<(String, String)>,
+    /// What takes the place of an outlier: own, remove, linear, spline, polynomial, expected.
+    #[arg(long, value_name = "ID")]
+    pub repair: Option<String>,
+    /// Cut the record where more than this many samples are lost in a row.
+    #[arg(long, value_name = "N|off")]
+    pub max_gap: Option<String>,
+    /// Longest run of outliers that is repaired (0: no limit).
+    #[arg(long, value_name = "N")]
+    pub max_fill: Option<String>,
+    /// Fill missing samples too: off, cells, rows.
+    #[arg(long, value_name = "WHAT")]
+    pub fill_gaps: Option<String>,
+    /// Threads to use; all cores by default.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+}
+
+/// What to write, and how.
+#[derive(Debug, Clone, Default, Args)]
+pub struct OutputArgs {
+    /// Write the cleaned file: the input again, only repaired and removed cells differ.
+    #[arg(short, long, value_name = "CLEANED")]
+    pub output: Option<PathBuf>,
+    /// Write the audit table: every flag with its evidence (CSV).
+    #[arg(long, value_name = "FLAGS")]
+    pub flags: Option<PathBuf>,
+    /// Write a row for every sample (CSV).
+    #[arg(long, value_name = "DIAG")]
+    pub diagnostics: Option<PathBuf>,
+    /// Overwrite existing outputs (never the input).
+    #[arg(long)]
+    pub force: bool,
+    /// Print a summary in JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// Print nothing but errors.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Which values a method starts with.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub enum PresetArg {
+    /// Values that work on real tracks.
+    #[default]
+    Default,
+    /// Values of the source documents.
+    Paper,
+}
+
+impl Load {
+    /// What the loader needs; the rate channel is loaded beside the channels that were named.
+    #[must_use]
+    pub fn options(&self, rate: Option<&str>) -> LoadOptions {
+        let mut channels = self.channel.clone();
+        if let Some(rate) = rate
+            && !channels.is_empty()
+            && !channels.iter().any(|c| c == rate)
+        {
+            channels.push(rate.to_owned());
+        }
+        LoadOptions {
+            time: self.time.clone(),
+            channels,
+            truth: self.truth.clone(),
+            missing: self.missing.clone(),
+            delimiter: self.delimiter.map(|d| match d {
+                DelimiterArg::Comma => Delimiter::Byte(b','),
+                DelimiterArg::Semicolon => Delimiter::Byte(b';'),
+                DelimiterArg::Tab => Delimiter::Byte(b'\t'),
+                DelimiterArg::Pipe => Delimiter::Byte(b'|'),
+                DelimiterArg::Blanks => Delimiter::Blanks,
+            }),
+            decimal_comma: self.decimal_comma.then_some(true),
+            header: self.no_header.then_some(false),
+            day_first: self.dates.map(|d| d == DateOrder::DayFirst),
+            ..LoadOptions::default()
+        }
+    }
+}
+
+impl Shared {
+    /// Method, repair and their settings.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Usage`] for a name or value that does not fit.
+    pub fn setup(&self) -> Result<Setup> {
+        let preset = match self.preset {
+            PresetArg::Default => Preset::Default,
+            PresetArg::Paper => Preset::Paper,
+        };
+        let mut setup = Setup::new(method_of_id(&self.method)?, preset);
+        setup.rate.clone_from(&self.rate);
+        let named = [
+            (repair::MAX_FILL.key, &self.max_fill),
+            (repair::FILL_GAPS.key, &self.fill_gaps),
+            (MAX_GAP.key, &self.max_gap),
+        ];
+        if let Some(id) = &self.repair {
+            setup.repair.set_text("repair", repair::METHOD.key, id)?;
+        }
+        for (key, value) in named {
+            if let Some(value) = value {
+                setup.set_text(key, value)?;
+            }
+        }
+        for (key, value) in &self.set {
+            setup.set_text(key, value)?;
+        }
+        Ok(setup)
+    }
+}
+
+fn pair(text: &str) -> std::result::Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
+        _ => Err("KEY=VALUE is wanted, k=4.5 say".into()),
+    }
+}
+
+fn size(text: &str) -> std::result::Result<(u16, u16), String> {
+    let sizes = text.split_once(['x', 'X']).and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    sizes
+        .filter(|&(w, h)| (1..=1000).contains(&w) && (1..=1000).contains(&h))
+        .ok_or_else(|| "WIDTHxHEIGHT is wanted, 120x40 say".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        use clap::CommandFactory;
+        Cli::command().debug_assert();
+    }
+}

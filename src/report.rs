@@ -1,0 +1,106 @@
+//! Tables and summaries of a result.
+
+use std::io::Write;
+
+use crate::error::{Error, Result};
+use crate::method::Verdict;
+use crate::session::{Analysed, Outcome, Session};
+use crate::track::{Cells, Series, Track, for_each_row};
+
+mod diagnostics;
+mod flags;
+mod inspection;
+mod summary;
+
+pub use diagnostics::diagnostics;
+pub use flags::flags;
+pub use inspection::{ChannelFacts, Inspection};
+pub use summary::{ChannelSummary, Summary};
+
+/// One channel of a result, walked row by row.
+struct Walk<'a> {
+    series: Series<'a>,
+    name: &'a str,
+    outcome: &'a Outcome,
+    plan: usize,
+    next: usize,
+}
+
+impl Walk<'_> {
+    /// The position of the sample of `row`; rows must be asked for in ascending order.
+    fn position(&mut self, row: usize) -> Option<usize> {
+        (self.next < self.series.len() && self.series.row(self.next) == row).then(|| {
+            self.next += 1;
+            self.next - 1
+        })
+    }
+
+    /// The value that the cleaned file has for an outcome's sample; none where the cell is empty.
+    fn clean(&self, position: usize) -> Option<f64> {
+        let fix = self.outcome.fix(position);
+        fix.map_or(Some(self.series.y[position]), |v| v.is_finite().then_some(v))
+    }
+
+    /// The value that fills the missing sample of `row`, if any.
+    fn fill(&self, row: usize) -> Option<f64> {
+        let place = crate::session::Place::Cell(row);
+        let at = self.outcome.fills.binary_search_by_key(&place, |f| f.place).ok()?;
+        self.outcome.fills.get(at).map(|f| f.value)
+    }
+
+    /// The measured value of a row that is not present (no usable time), if its cell is a number.
+    fn raw(&self, track: &Track, row: usize, position: Option<usize>) -> Option<f64> {
+        match position {
+            Some(position) => Some(self.series.y[position]),
+            None => track.channel(self.name).and_then(|c| c.values.get(row).copied()).filter(|v| v.is_finite()),
+        }
+    }
+}
+
+/// Calls `visit` with every row and channel of a result, in the order of the file and of the session.
+fn walk(
+    track: &Track,
+    session: &Session,
+    analysed: &Analysed,
+    mut visit: impl FnMut(usize, &Cells<'_>, &mut Walk<'_>) -> Result<()>,
+) -> Result<()> {
+    let mut channels: Vec<Walk<'_>> = Vec::new();
+    for (plan, (index, samples, outcome)) in analysed.channels.iter().enumerate() {
+        let channel = &track.channels[*index];
+        channels.push(Walk {
+            series: samples.series(channel, &track.time),
+            name: &session.plans[plan].channel,
+            outcome,
+            plan,
+            next: 0,
+        });
+    }
+    for_each_row(track, |row, cells| channels.iter_mut().try_for_each(|channel| visit(row, cells, channel)))
+}
+
+/// The text of the time of a row, as the file has it; the sample number where there is no time column.
+fn time_text(track: &Track, row: usize, cells: &Cells<'_>) -> String {
+    track.time.column.map_or_else(|| row.to_string(), |c| cells.text(c).into_owned())
+}
+
+/// A number as the tables have it, empty for none.
+fn cell(value: Option<f64>) -> String {
+    value.filter(|v| v.is_finite()).map(crate::track::number_text).unwrap_or_default()
+}
+
+fn verdict_word(outcome: &Outcome, position: Option<usize>) -> &'static str {
+    position.map_or(Verdict::Missing, |p| outcome.verdict(p)).word()
+}
+
+fn csv_error(e: csv::Error) -> Error {
+    let text = e.to_string();
+    let source = match e.into_kind() {
+        csv::ErrorKind::Io(source) => source,
+        _ => std::io::Error::other(text),
+    };
+    Error::Io { action: "write", path: "the table".into(), source }
+}
+
+fn write_row(writer: &mut csv::Writer<&mut dyn Write>, fields: &[&str]) -> Result<()> {
+    writer.write_record(fields).map_err(csv_error)
+}

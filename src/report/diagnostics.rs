@@ -1,0 +1,38 @@
+//! The diagnostics table: a row for every sample.
+
+use std::io::Write;
+
+use super::{cell, time_text, verdict_word, walk, write_row};
+use crate::error::{Error, Result};
+use crate::session::{Analysed, Session};
+use crate::track::Track;
+
+/// The columns, in order.
+const HEADER: [&str; 8] = ["row", "time", "channel", "raw", "verdict", "expected", "tolerance", "clean"];
+
+/// Writes the diagnostics table as CSV.
+///
+/// # Errors
+/// When the input cannot be read again, or the table cannot be written.
+pub fn diagnostics(track: &Track, session: &Session, analysed: &Analysed, out: &mut dyn Write) -> Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    write_row(&mut writer, &HEADER)?;
+    walk(track, session, analysed, |row, cells, channel| {
+        let position = channel.position(row);
+        let judged = &channel.outcome.detection.judged;
+        let of = |values: &[f64]| position.and_then(|p| values.get(p).copied());
+        let clean = position.map_or_else(|| channel.fill(row), |p| channel.clean(p));
+        let fields = [
+            &(row + 1).to_string(),
+            &time_text(track, row, cells),
+            channel.name,
+            &cell(channel.raw(track, row, position)),
+            verdict_word(channel.outcome, position),
+            &cell(of(&judged.expected)),
+            &cell(of(&judged.tolerance).filter(|h| *h > 0.0)),
+            &cell(clean),
+        ];
+        write_row(&mut writer, &fields)
+    })?;
+    writer.flush().map_err(Error::io("write", "the diagnostics"))
+}

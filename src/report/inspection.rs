@@ -1,0 +1,277 @@
+//! What the loader understood of a file, for people and for programs.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use crate::method::noise;
+use crate::method::shared::MAX_GAP;
+use crate::param::Value;
+use crate::track::{ColumnKind, Delimiter, Encoding, Fault, Faults, Series, Track, printable};
+
+/// The facts of a file.
+#[derive(Debug, Clone, Serialize)]
+pub struct Inspection {
+    /// The file.
+    pub file: String,
+    /// SHA-256 of its bytes.
+    pub sha256: String,
+    /// How its text is laid out, in words.
+    pub layout: String,
+    /// Data rows.
+    pub rows: usize,
+    /// Every column.
+    pub columns: Vec<ColumnFacts>,
+    /// Name of the time column, or `sample`.
+    pub time: String,
+    /// How times are written, in words.
+    pub time_format: String,
+    /// First and last usable time.
+    pub time_range: Option<(String, String)>,
+    /// From the first to the last usable time, in seconds.
+    pub duration_s: Option<f64>,
+    /// The channels.
+    pub channels: Vec<ChannelFacts>,
+    /// What could not be used.
+    pub faults: Vec<FaultFacts>,
+    /// What the user should know.
+    pub notes: Vec<String>,
+}
+
+/// The facts of a column.
+#[derive(Debug, Clone, Serialize)]
+pub struct ColumnFacts {
+    /// Its number from 1.
+    pub number: usize,
+    /// Its name.
+    pub name: String,
+    /// `time`, `number`, `truth`, `text` or `empty`.
+    pub kind: &'static str,
+    /// Its unit, or empty.
+    pub unit: String,
+    /// Cells without a value.
+    pub missing: usize,
+}
+
+/// The facts of a channel.
+#[derive(Debug, Clone, Serialize)]
+pub struct ChannelFacts {
+    /// Its name.
+    pub name: String,
+    /// Its unit, or empty.
+    pub unit: String,
+    /// Samples with a time and a value.
+    pub present: usize,
+    /// Rows without.
+    pub missing: usize,
+    /// Nominal interval in seconds.
+    pub interval_s: Option<f64>,
+    /// Samples lost between present ones.
+    pub lost: usize,
+    /// Stretches between cuts, at the default `max_gap`.
+    pub segments: usize,
+    /// Smallest and largest value.
+    pub range: Option<(f64, f64)>,
+    /// Noise scale by third differences, of the longest segment.
+    pub noise_difference: Option<f64>,
+    /// Noise scale by the smoothing spline, of the longest segment.
+    pub noise_spline: Option<f64>,
+}
+
+/// One kind of fault.
+#[derive(Debug, Clone, Serialize)]
+pub struct FaultFacts {
+    /// What it is.
+    pub what: &'static str,
+    /// How many.
+    pub count: usize,
+    /// The first few: line and text.
+    pub first: Vec<(u64, String)>,
+}
+
+impl Inspection {
+    /// The facts of `track`.
+    #[must_use]
+    pub fn of(track: &Track) -> Self {
+        let usable: Vec<f64> = track.time.seconds.iter().copied().filter(|t| t.is_finite()).collect();
+        let ends = usable.first().zip(usable.last());
+        Self {
+            file: track.source.path().map_or_else(|| track.source.name(), |p| p.display().to_string()),
+            sha256: track.sha256.clone(),
+            layout: layout(track),
+            rows: track.rows,
+            columns: track
+                .columns
+                .iter()
+                .enumerate()
+                .map(|(i, c)| ColumnFacts {
+                    number: i + 1,
+                    name: c.name.clone(),
+                    kind: kind_word(c.kind),
+                    unit: c.unit.clone(),
+                    missing: c.missing,
+                })
+                .collect(),
+            time: track.time.name.clone(),
+            time_format: track.time.format.words(),
+            time_range: ends.map(|(a, b)| (track.time.full_label(*a), track.time.full_label(*b))),
+            duration_s: ends.map(|(a, b)| b - a),
+            channels: track.channels.iter().map(|c| channel_facts(track, c)).collect(),
+            faults: fault_facts(&track.faults),
+            notes: track.notes.clone(),
+        }
+    }
+
+    /// A page for people.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut out = String::new();
+        let _ = writeln!(out, "file      {}", printable(&self.file));
+        let _ = writeln!(out, "layout    {}", self.layout);
+        let _ = writeln!(out, "rows      {}", self.rows);
+        let range = self.time_range.as_ref().map_or("no usable time".to_owned(), |(a, b)| format!("{a} … {b}"));
+        let duration = self.duration_s.map_or(String::new(), |d| format!(", {} s", short(d)));
+        let _ = writeln!(out, "time      {} ({}): {range}{duration}", printable(&self.time), self.time_format);
+        self.columns_text(&mut out);
+        self.channels_text(&mut out);
+        if self.faults.is_empty() {
+            let _ = writeln!(out, "\nbad rows  none");
+        } else {
+            let _ = writeln!(out, "\nbad rows");
+        }
+        for fault in &self.faults {
+            let first: Vec<String> =
+                fault.first.iter().map(|(line, text)| format!("line {line}: {}", printable(text))).collect();
+            let more = if fault.count > fault.first.len() { ", …" } else { "" };
+            let _ = writeln!(out, "  {:>8} {} ({}{more})", fault.count, fault.what, first.join(", "));
+        }
+        self.notes.iter().for_each(|note| {
+            let _ = writeln!(out, "  note: {}", printable(note));
+        });
+        out
+    }
+
+    fn columns_text(&self, out: &mut String) {
+        let width = self.columns.iter().map(|c| printable(&c.name).chars().count()).max().unwrap_or(0).clamp(6, 32);
+        let _ = writeln!(out, "\n  {:>3}  {:width$}  {:6}  {:10}  {:>8}", "#", "column", "kind", "unit", "missing");
+        for c in &self.columns {
+            let (name, unit) = (printable(&c.name), printable(&c.unit));
+            let _ = writeln!(out, "  {:>3}  {name:width$}  {:6}  {unit:10}  {:>8}", c.number, c.kind, c.missing);
+        }
+    }
+
+    fn channels_text(&self, out: &mut String) {
+        let width = self.channels.iter().map(|c| printable(&c.name).chars().count()).max().unwrap_or(0).clamp(7, 32);
+        let _ = writeln!(
+            out,
+            "\n  {:width$}  {:>9} {:>8} {:>10} {:>8} {:>8}  {:>10} {:>10}  {:>23}",
+            "channel", "present", "missing", "interval/s", "lost", "segments", "noise diff", "spline", "range"
+        );
+        for c in &self.channels {
+            let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), short);
+            let range = c.range.map_or_else(|| "-".to_owned(), |(a, b)| format!("{} … {}", short(a), short(b)));
+            let _ = writeln!(
+                out,
+                "  {:width$}  {:>9} {:>8} {:>10} {:>8} {:>8}  {:>10} {:>10}  {range:>23}",
+                printable(&c.name),
+                c.present,
+                c.missing,
+                number(c.interval_s),
+                c.lost,
+                c.segments,
+                number(c.noise_difference),
+                number(c.noise_spline),
+            );
+        }
+    }
+}
+
+/// Six significant digits, without an exponent where that is readable.
+fn short(x: f64) -> String {
+    let size = x.abs();
+    if size != 0.0 && !(1e-4..1e9).contains(&size) {
+        return format!("{x:.4e}");
+    }
+    let digits = if size >= 1.0 { 5_i32.saturating_sub(magnitude(size)) } else { 6 };
+    let text = format!("{x:.*}", usize::try_from(digits.max(0)).unwrap_or(0));
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+fn magnitude(x: f64) -> i32 {
+    #[expect(clippy::cast_possible_truncation, reason = "the logarithm of a double is small")]
+    let magnitude = x.log10().floor() as i32;
+    magnitude
+}
+
+fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts {
+    let series = Series::of(channel, &track.time);
+    let max_gap = match MAX_GAP.default {
+        Value::Whole(n) => usize::try_from(n).ok(),
+        _ => None,
+    };
+    let segments = series.segments(max_gap);
+    let longest = segments.iter().enumerate().max_by_key(|(_, s)| s.len()).map(|(i, _)| i);
+    let of_longest = |all: Vec<f64>| longest.and_then(|i| all.get(i).copied()).filter(|s| s.is_finite());
+    let low = series.y.iter().copied().reduce(f64::min);
+    ChannelFacts {
+        name: channel.name.clone(),
+        unit: channel.unit.clone(),
+        present: series.len(),
+        missing: track.rows - series.len(),
+        interval_s: Some(series.interval).filter(|t| t.is_finite()),
+        lost: (1..series.len()).map(|i| series.lost_before(i)).fold(0, usize::saturating_add),
+        segments: segments.len(),
+        range: low.zip(series.y.iter().copied().reduce(f64::max)),
+        noise_difference: of_longest(noise::by_difference(&series, &segments)),
+        noise_spline: of_longest(noise::by_spline(&series, &segments)),
+    }
+}
+
+fn kind_word(kind: ColumnKind) -> &'static str {
+    match kind {
+        ColumnKind::Time => "time",
+        ColumnKind::Number => "number",
+        ColumnKind::Truth => "truth",
+        ColumnKind::Text => "text",
+        ColumnKind::Empty => "empty",
+    }
+}
+
+fn fault_facts(faults: &Faults) -> Vec<FaultFacts> {
+    let kinds: [(&'static str, &Fault); 6] = [
+        ("repeated times", &faults.repeated_times),
+        ("backward times", &faults.backward_times),
+        ("unreadable times", &faults.unreadable_times),
+        ("unreadable cells", &faults.unreadable_cells),
+        ("rows with fewer or more cells than columns", &faults.ragged_rows),
+        ("numbers too large for a double", &faults.infinite_cells),
+    ];
+    let facts = kinds.into_iter().filter(|(_, f)| f.count > 0);
+    facts.map(|(what, f)| FaultFacts { what, count: f.count, first: f.first.clone() }).collect()
+}
+
+fn layout(track: &Track) -> String {
+    let d = &track.dialect;
+    let delimiter = match d.delimiter {
+        Delimiter::Byte(b',') => "commas",
+        Delimiter::Byte(b';') => "semicolons",
+        Delimiter::Byte(b'\t') => "tabs",
+        Delimiter::Byte(b'|') => "pipes",
+        Delimiter::Byte(_) => "one character",
+        Delimiter::Blanks => "blanks",
+    };
+    let encoding = match d.encoding {
+        Encoding::Utf8 { bom: false } => "UTF-8",
+        Encoding::Utf8 { bom: true } => "UTF-8 with byte order mark",
+        Encoding::Utf16 { .. } => "UTF-16",
+        Encoding::Latin1 => "Windows-1252",
+    };
+    let mut words = vec![format!("cells between {delimiter}"), encoding.to_owned()];
+    words.push(if d.header { "header" } else { "no header" }.to_owned());
+    for (yes, word) in [(d.units_row, "units row"), (d.decimal_comma, "decimal comma"), (d.gzip, "gzip")] {
+        if yes {
+            words.push(word.to_owned());
+        }
+    }
+    words.join(", ")
+}

@@ -1,0 +1,148 @@
+//! What came out, in few lines for people and as JSON for programs.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use crate::method::Way;
+use crate::param::{Settings, Value};
+use crate::score::Score;
+use crate::session::{Analysed, Counts, Session};
+use crate::track::Track;
+
+/// A result in a nutshell.
+#[derive(Debug, Clone, Serialize)]
+pub struct Summary {
+    /// The program that made it.
+    pub program: &'static str,
+    /// The record.
+    pub file: String,
+    /// SHA-256 of the record.
+    pub sha256: String,
+    /// Its data rows.
+    pub rows: usize,
+    /// Outliers in all channels.
+    pub flagged: usize,
+    /// SHA-256 of the cleaned file, where it was made.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clean_sha256: Option<String>,
+    /// One entry per channel.
+    pub channels: Vec<ChannelSummary>,
+}
+
+/// The result of one channel in a nutshell.
+#[derive(Debug, Clone, Serialize)]
+pub struct ChannelSummary {
+    /// Its name.
+    pub channel: String,
+    /// Id of the method.
+    pub method: &'static str,
+    /// Every setting of the method.
+    pub settings: serde_json::Map<String, serde_json::Value>,
+    /// Every setting of the repair.
+    pub repair: serde_json::Map<String, serde_json::Value>,
+    /// How many samples are what.
+    pub counts: Counts,
+    /// Stretches between cuts.
+    pub segments: usize,
+    /// Models that were lost and started again.
+    pub restarts: Vec<RestartSummary>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// Against the truth, where it is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub score: Option<Score>,
+}
+
+/// A model that was lost and started again.
+#[derive(Debug, Clone, Serialize)]
+pub struct RestartSummary {
+    /// Data row (from 1) at which it was lost.
+    pub row: usize,
+    /// Time of that row.
+    pub time: String,
+    /// `forward` or `backward`.
+    pub direction: &'static str,
+}
+
+impl Summary {
+    /// The summary of a result.
+    #[must_use]
+    pub fn of(track: &Track, session: &Session, analysed: &Analysed) -> Self {
+        let channels = session.plans.iter().zip(&analysed.channels).map(|(plan, (index, samples, outcome))| {
+            let series = samples.series(&track.channels[*index], &track.time);
+            let detection = &outcome.detection;
+            let restarts = detection.judged.restarts.iter().map(|r| RestartSummary {
+                row: series.row(r.at) + 1,
+                time: track.time.full_label(series.t[r.at]),
+                direction: if r.way == Way::Forward { "forward" } else { "backward" },
+            });
+            let mut warnings = detection.setup.method.warnings(&detection.setup.settings);
+            warnings.extend(detection.judged.warnings.iter().cloned());
+            ChannelSummary {
+                channel: plan.channel.clone(),
+                method: plan.setup.method.about().id,
+                settings: json_settings(&plan.setup.settings),
+                repair: json_settings(&plan.setup.repair),
+                counts: outcome.counts,
+                segments: detection.segments.len(),
+                restarts: restarts.collect(),
+                warnings,
+                score: track.truth.as_ref().map(|truth| Score::of(outcome, &series, truth)),
+            }
+        });
+        Self {
+            program: concat!("wildpoint ", env!("CARGO_PKG_VERSION")),
+            file: track.source.path().map_or_else(|| track.source.name(), |p| p.display().to_string()),
+            sha256: track.sha256.clone(),
+            rows: track.rows,
+            flagged: analysed.flagged(),
+            clean_sha256: None,
+            channels: channels.collect(),
+        }
+    }
+
+    /// A few lines for people.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut out = String::new();
+        for c in &self.channels {
+            let n = c.counts;
+            let _ = write!(out, "{}: {} flagged by {}", c.channel, n.flagged, c.method);
+            let _ = write!(out, " ({} isolated, {} patches)", n.isolated, n.patches);
+            let _ = write!(out, ", {} repaired, {} removed", n.repaired, n.removed);
+            for (count, what) in [
+                (n.suspects, "suspect"),
+                (n.unchecked, "unchecked"),
+                (n.filled, "filled"),
+                (n.decisions, "decided by the analyst"),
+                (n.conflicts, "of them against the method"),
+                (n.missing, "missing"),
+                (c.restarts.len(), "restarts"),
+            ] {
+                if count > 0 {
+                    let _ = write!(out, ", {count} {what}");
+                }
+            }
+            let _ = writeln!(out, " of {} samples in {} segments", n.present, c.segments);
+            if let Some(s) = c.score {
+                let rate = s.rejection_rate.map_or(String::new(), |r| format!(", rejection rate {:.1} %", 100.0 * r));
+                let _ = writeln!(out, "  against the truth: {} missed, {} false{rate}", s.missed, s.false_alarms);
+            }
+            c.warnings.iter().for_each(|w| {
+                let _ = writeln!(out, "  note: {w}");
+            });
+        }
+        out
+    }
+}
+
+fn json_settings(settings: &Settings) -> serde_json::Map<String, serde_json::Value> {
+    let value = |v: Value| match v {
+        Value::Whole(n) => n.into(),
+        Value::Real(x) => x.into(),
+        Value::Word(w) => w.into(),
+        Value::Switch(b) => b.into(),
+    };
+    settings.iter().map(|(p, v)| (p.key.to_owned(), value(v))).collect()
+}
