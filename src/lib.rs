@@ -2,18 +2,19 @@
 //!
 //! The modules are layers: each imports only from those listed before it (`tests/layers.rs` holds them to that).
 
+pub mod batch;
+pub mod cli;
 pub mod error;
-pub mod track;
-pub mod math;
-pub mod stop;
-pub mod param;
-pub mod method;
-pub mod repair;
-pub mod review;
-pub mod session;
-pub mod score;
 pub mod experiment;
 pub mod job;
+pub mod math;
+pub mod method;
+pub mod param;
+pub mod repair;
 pub mod report;
-pub mod cli;
-pub mod batch;
+pub mod review;
+pub mod score;
+pub mod session;
+pub mod stop;
+pub mod track;
+pub mod tui;

@@ -1,1 +1,124 @@
-fn main() {}
+//! Dispatch and exit status.
+
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::Parser;
+use wildpoint::batch::{self, Ending};
+use wildpoint::cli::{Cli, Color, Glyphs as GlyphChoice};
+use wildpoint::error::{Error, Result};
+use wildpoint::report::Summary;
+use wildpoint::session::{Analysed, Session, open_all};
+use wildpoint::stop::Stop;
+use wildpoint::track::{Source, load};
+use wildpoint::tui::plot::Glyphs;
+use wildpoint::tui::theme::{ColorDepth, Theme};
+use wildpoint::tui::{Look, Opening, run, still};
+
+fn main() -> ExitCode {
+    let mut cli = Cli::parse();
+    let stdout = std::io::stdout();
+    let ended = match cli.command.take() {
+        Some(command) => {
+            let mut out = std::io::BufWriter::new(stdout.lock());
+            let ended = batch::run(command, &mut out);
+            let flushed = out.flush().map_err(Error::io("write", "standard output"));
+            ended.and_then(|ending| flushed.map(|()| ending))
+        }
+        None => workbench(&cli).map(|()| Ending::Done),
+    };
+    match ended {
+        Ok(Ending::Done) => ExitCode::SUCCESS,
+        Ok(Ending::Differs) => ExitCode::from(1),
+        // A reader that has seen enough (`| head`) is no failure.
+        Err(Error::Io { source, .. }) if source.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(e) => {
+            let _ = writeln!(std::io::stderr(), "wildpoint: {e}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Opens the workbench, or prints one frame of it where there is no terminal.
+fn workbench(cli: &Cli) -> Result<()> {
+    batch::set_threads(cli.shared.threads)?;
+    let opening = opening(cli)?;
+    let stdout = std::io::stdout();
+    let dumb = std::env::var("TERM").is_ok_and(|t| t == "dumb");
+    if stdout.is_terminal() && !dumb {
+        return run(opening, Look { theme: theme(cli), glyphs: glyphs(cli) });
+    }
+    let analysed = {
+        let mut first = opening.session.clone();
+        first.plans.truncate(1);
+        let analysed = Analysed::of(&first, &opening.track, &Stop::never())?;
+        Summary::of(&opening.track, &first, &analysed).text()
+    };
+    let frame = still(opening, Look { theme: Theme::mono(), glyphs: glyphs(cli) }, cli.size)?;
+    let mut out = stdout.lock();
+    writeln!(out, "{frame}\n{analysed}").map_err(Error::io("write", "standard output"))
+}
+
+fn opening(cli: &Cli) -> Result<Opening> {
+    let source = match &cli.file {
+        None => Source::demo(),
+        Some(path) if is_session(path) => {
+            let opened = open_all(path, false)?;
+            let file = Some(path.clone());
+            return Ok(Opening { track: opened.track, session: opened.session, file, notes: opened.notes });
+        }
+        Some(path) => Source::File(path.clone()),
+    };
+    let setup = cli.shared.setup()?;
+    let rate = cli.shared.rate.as_deref();
+    let track = load(&source, &cli.shared.load.options(rate))?;
+    let mut options = cli.shared.load.options(None);
+    options.channels.clear();
+    let session = Session::new(&track, options, &setup);
+    Ok(Opening { track, session, file: None, notes: Vec::new() })
+}
+
+/// Sessions are told from records by their name.
+fn is_session(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
+}
+
+fn theme(cli: &Cli) -> Theme {
+    let variable = |name: &str| std::env::var(name).unwrap_or_default();
+    let depth = match cli.color {
+        Color::Never => ColorDepth::Never,
+        Color::Sixteen => ColorDepth::Ansi16,
+        Color::Indexed => ColorDepth::Indexed256,
+        Color::True => ColorDepth::True,
+        Color::Auto => {
+            let term = variable("TERM");
+            if !variable("NO_COLOR").is_empty() {
+                ColorDepth::Never
+            } else if matches!(variable("COLORTERM").as_str(), "truecolor" | "24bit") {
+                ColorDepth::True
+            } else if term.contains("256") || term.starts_with("xterm") {
+                ColorDepth::Indexed256
+            } else {
+                ColorDepth::Ansi16
+            }
+        }
+    };
+    Theme::choose(depth, cli.light)
+}
+
+fn glyphs(cli: &Cli) -> Glyphs {
+    match cli.glyphs {
+        GlyphChoice::Unicode => Glyphs::Unicode,
+        GlyphChoice::Braille => Glyphs::Braille,
+        GlyphChoice::Ascii => Glyphs::Ascii,
+        GlyphChoice::Auto => {
+            let locale =
+                ["LC_ALL", "LC_CTYPE", "LANG"].iter().find_map(|n| std::env::var(n).ok().filter(|v| !v.is_empty()));
+            // A console without a locale is most often a bare container: its terminal is what the user sits at.
+            let utf8 = locale.is_none_or(|l| l.to_lowercase().replace('-', "").contains("utf8"));
+            let console = std::env::var("TERM").is_ok_and(|t| t == "linux");
+            if utf8 && !console { Glyphs::Unicode } else { Glyphs::Ascii }
+        }
+    }
+}

@@ -1,0 +1,262 @@
+//! The workbench on a terminal: the session's editor.
+//!
+//! Keys, sizes and results become [`message::Message`]s; [`update::update`] changes the [`model::Model`] and asks
+//! for [`message::Effect`]s; [`view::draw`] shows it. This file is the loop between them and the outside.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use crossbeam_channel::{Receiver, Sender, select, unbounded};
+use ratatui::buffer::Buffer;
+use ratatui::crossterm::event::{Event, KeyEventKind, read};
+use ratatui::layout::Rect;
+
+use crate::error::{Error, Result};
+use crate::job::Worker;
+use crate::session::Session;
+use crate::stop::Stop;
+use crate::track::Track;
+use input::{ESC_TIMEOUT_MS, Normaliser};
+use message::{Effect, Message, Written};
+use model::{Model, Tone};
+use office::{Errand, Judge};
+use plot::Glyphs;
+use terminal::Screen;
+use theme::Theme;
+
+pub mod action;
+pub mod drawn;
+mod input;
+pub mod keys;
+pub mod layout;
+pub mod message;
+pub mod model;
+pub mod office;
+pub mod plot;
+mod terminal;
+pub mod theme;
+pub mod update;
+pub mod view;
+
+/// How the workbench looks.
+#[derive(Debug, Clone, Copy)]
+pub struct Look {
+    /// Styles.
+    pub theme: Theme,
+    /// Glyphs.
+    pub glyphs: Glyphs,
+}
+
+/// What is opened: a record, a session on it, and the file of that session.
+#[derive(Debug)]
+pub struct Opening {
+    /// The record.
+    pub track: Track,
+    /// The session.
+    pub session: Session,
+    /// The file it was opened from.
+    pub file: Option<PathBuf>,
+    /// What the user should know at the start.
+    pub notes: Vec<String>,
+}
+
+impl Opening {
+    /// The model to start with.
+    #[must_use]
+    pub fn model(self, look: Look) -> Model {
+        let mut notes = self.track.notes.clone();
+        notes.extend(self.notes);
+        let mut model = Model::new(Arc::new(self.track), self.session, self.file, look.theme, look.glyphs);
+        if !notes.is_empty() {
+            model.say(Tone::Warning, notes.join(" · "));
+        }
+        model
+    }
+}
+
+/// One frame of the workbench at a size, as text, when all has been computed.
+///
+/// # Errors
+/// What the method cannot do under the settings.
+pub fn still(opening: Opening, look: Look, size: (u16, u16)) -> Result<String> {
+    let mut model = opening.model(look);
+    model.size = size;
+    let plan = model.shown;
+    let drawn = Judge::new(&model, plan).run(&Stop::never())?;
+    model.awaited = Some(0);
+    update::update(&mut model, Message::Analysed { generation: 0, plan, result: Ok(Box::new(drawn)) });
+    let area = Rect { x: 0, y: 0, width: size.0, height: size.1 };
+    let mut buffer = Buffer::empty(area);
+    view::draw(&model, area, &mut buffer);
+    Ok(text_of(&buffer))
+}
+
+/// The text of a buffer, a line each row.
+#[must_use]
+pub fn text_of(buffer: &Buffer) -> String {
+    use unicode_width::UnicodeWidthStr;
+    let area = buffer.area;
+    let mut text = String::new();
+    for y in area.top()..area.bottom() {
+        let mut line = String::new();
+        let mut x = area.left();
+        while x < area.right() {
+            let symbol = buffer[(x, y)].symbol();
+            line.push_str(symbol);
+            x += u16::try_from(symbol.width()).unwrap_or(1).max(1);
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+/// Runs the workbench until the user leaves it.
+///
+/// # Errors
+/// When the terminal cannot be used.
+pub fn run(opening: Opening, look: Look) -> Result<()> {
+    let mut model = opening.model(look);
+    let (sender, messages) = unbounded();
+    let worker = office::judge(sender.clone());
+    let mut outside = Outside { worker, sender };
+    let signals = listen_for_signals()?;
+    let mut screen = Screen::take()?;
+    model.size = screen.size()?;
+    let first = vec![Effect::Analyse(model.shown)];
+    outside.carry_out(&mut model, &mut screen, first)?;
+    let events = listen_for_events();
+    let mut normaliser = Normaliser::default();
+    screen.draw(&model)?;
+    loop {
+        let mut inbox = Vec::new();
+        select! {
+            recv(events) -> event => match event {
+                Ok(event) => take_event(event, &mut normaliser, &mut inbox),
+                // The terminal is gone: so is the reason to go on.
+                Err(_) => return Ok(()),
+            },
+            recv(messages) -> message => inbox.extend(message),
+            recv(signals) -> signal => if let Ok(signal) = signal {
+                match signal {
+                    Signalled::End => return Ok(()),
+                    Signalled::Suspend => screen.suspend()?,
+                    Signalled::Resumed => screen.forget()?,
+                }
+            },
+            default(if normaliser.waits() { Duration::from_millis(ESC_TIMEOUT_MS) } else { Duration::from_secs(3600) }) => {
+                match normaliser.flush() {
+                    Some(key) => inbox.push(Message::Key(key)),
+                    None => continue,
+                }
+            },
+        }
+        // A burst of keys is drawn once.
+        events.try_iter().for_each(|event| take_event(event, &mut normaliser, &mut inbox));
+        inbox.extend(messages.try_iter());
+        for message in inbox {
+            let effects = update::update(&mut model, message);
+            if outside.carry_out(&mut model, &mut screen, effects)? == Next::Leave {
+                return Ok(());
+            }
+        }
+        screen.draw(&model)?;
+    }
+}
+
+fn take_event(event: Event, normaliser: &mut Normaliser, inbox: &mut Vec<Message>) {
+    match event {
+        Event::Key(key) if key.kind != KeyEventKind::Release => {
+            inbox.extend(normaliser.feed(key).into_iter().map(Message::Key));
+        }
+        Event::Paste(text) => inbox.push(Message::Paste(text)),
+        Event::Resize(width, height) => inbox.push(Message::Resize(width, height)),
+        _ => {}
+    }
+}
+
+fn listen_for_events() -> Receiver<Event> {
+    let (sender, events) = unbounded();
+    std::thread::spawn(move || {
+        while let Ok(event) = read() {
+            if sender.send(event).is_err() {
+                return;
+            }
+        }
+    });
+    events
+}
+
+/// A signal, as far as it matters.
+#[derive(Debug, Clone, Copy)]
+enum Signalled {
+    End,
+    Suspend,
+    Resumed,
+}
+
+#[cfg(unix)]
+fn listen_for_signals() -> Result<Receiver<Signalled>> {
+    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP};
+    let mut signals = signal_hook::iterator::Signals::new([SIGTERM, SIGHUP, SIGINT, SIGTSTP, SIGCONT])
+        .map_err(|source| Error::Io { action: "listen for", path: "signals".into(), source })?;
+    let (sender, receiver) = unbounded();
+    std::thread::spawn(move || {
+        for signal in signals.forever() {
+            let meaning = match signal {
+                SIGTSTP => Signalled::Suspend,
+                SIGCONT => Signalled::Resumed,
+                _ => Signalled::End,
+            };
+            if sender.send(meaning).is_err() {
+                return;
+            }
+        }
+    });
+    Ok(receiver)
+}
+
+#[cfg(not(unix))]
+fn listen_for_signals() -> Result<Receiver<Signalled>> {
+    Ok(crossbeam_channel::never())
+}
+
+/// Whether the loop goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Next {
+    Stay,
+    Leave,
+}
+
+/// What carries out effects.
+struct Outside {
+    worker: Worker<Judge>,
+    sender: Sender<Message>,
+}
+
+impl Outside {
+    fn carry_out(&mut self, model: &mut Model, screen: &mut Screen, effects: Vec<Effect>) -> Result<Next> {
+        for effect in effects {
+            match effect {
+                Effect::Analyse(plan) => model.awaited = Some(self.worker.submit(Judge::new(model, plan))),
+                Effect::Cancel => self.worker.cancel(),
+                Effect::Save { path, overwrite, then_quit } => {
+                    let what = Written::Session { revision: model.revision, then_quit };
+                    self.write(model, Errand { what, path, overwrite });
+                }
+                Effect::Export { path, overwrite } => {
+                    self.write(model, Errand { what: Written::Cleaned, path, overwrite });
+                }
+                Effect::Redraw => screen.forget()?,
+                Effect::Suspend => screen.suspend()?,
+                Effect::Quit => return Ok(Next::Leave),
+            }
+        }
+        Ok(Next::Stay)
+    }
+
+    fn write(&self, model: &Model, errand: Errand) {
+        office::write(Arc::clone(&model.track), model.document(), errand, self.sender.clone());
+    }
+}

@@ -1,0 +1,137 @@
+//! A result made ready for drawing, on the worker thread.
+
+use std::sync::Arc;
+
+use super::plot::{Flag, FlagState, Pyramid, Span};
+use crate::method::Verdict;
+use crate::review::Ruling;
+use crate::session::{Mark, Outcome};
+use crate::track::Series;
+
+/// An outcome with all that a frame needs of it.
+#[derive(Debug, Clone)]
+pub struct Drawn {
+    /// The outcome.
+    pub outcome: Arc<Outcome>,
+    /// True for each sample that is an outlier: the curve is that of the others.
+    pub hidden: Vec<bool>,
+    /// Extremes of the kept samples.
+    pub kept: Pyramid,
+    /// Extremes of residual / tolerance.
+    pub ratios: Pyramid,
+    /// Extremes of the expected value.
+    pub expected: Pyramid,
+    /// Extremes of the tolerance band.
+    pub band: Pyramid,
+    /// Extremes of the repaired values.
+    pub repaired: Pyramid,
+    /// Extremes of the record after repair.
+    pub after: Pyramid,
+    /// Positions in the order of the queue: outliers, suspects and decisions, by time.
+    pub positions: Vec<u32>,
+}
+
+impl Drawn {
+    /// Arranges `outcome` of `series`.
+    #[must_use]
+    pub fn new(outcome: Outcome, series: &Series<'_>) -> Self {
+        let mut hidden = vec![false; series.len()];
+        outcome.outliers.iter().for_each(|&i| hidden[i] = true);
+        let kept = Pyramid::build(&series.y, |i| hidden[i]);
+        let ratios = Pyramid::build_spans(series.len(), |i| ratio(&outcome, series, i).map_or(Span::EMPTY, Span::at));
+        let positions = outcome.marks.iter().map(|m| m.position).collect();
+        let mut drawn = Self {
+            outcome: Arc::new(outcome),
+            hidden,
+            kept,
+            ratios,
+            expected: Pyramid::default(),
+            band: Pyramid::default(),
+            repaired: Pyramid::default(),
+            after: Pyramid::default(),
+            positions,
+        };
+        let n = series.len();
+        drawn.expected = Pyramid::build_spans(n, |i| drawn.expected_span(i));
+        drawn.band = Pyramid::build_spans(n, |i| drawn.band_span(i));
+        drawn.repaired = Pyramid::build_spans(n, |i| drawn.repaired_span(i));
+        drawn.after = Pyramid::build_spans(n, |i| drawn.after_span(series, i));
+        drawn
+    }
+
+    /// The expected value of a sample, for drawing.
+    #[must_use]
+    pub fn expected_span(&self, i: usize) -> Span {
+        span(self.outcome.detection.judged.expected.get(i).copied())
+    }
+
+    /// Expected value minus tolerance to expected value plus tolerance.
+    #[must_use]
+    pub fn band_span(&self, i: usize) -> Span {
+        let judged = &self.outcome.detection.judged;
+        match (judged.expected.get(i), judged.tolerance.get(i)) {
+            (Some(p), Some(h)) if *h > 0.0 && (p + h).is_finite() && (p - h).is_finite() => {
+                Span { low: p - h, high: p + h }
+            }
+            _ => Span::EMPTY,
+        }
+    }
+
+    /// The value that takes the place of an outlier; nothing for other samples.
+    #[must_use]
+    pub fn repaired_span(&self, i: usize) -> Span {
+        if self.hidden.get(i) == Some(&true) { span(self.outcome.fix(i)) } else { Span::EMPTY }
+    }
+
+    /// The sample as the cleaned file has it.
+    #[must_use]
+    pub fn after_span(&self, series: &Series<'_>, i: usize) -> Span {
+        if self.hidden.get(i) == Some(&true) { span(self.outcome.fix(i)) } else { span(series.y.get(i).copied()) }
+    }
+
+    /// The sample where it is kept.
+    #[must_use]
+    pub fn kept_span(&self, series: &Series<'_>, i: usize) -> Span {
+        if self.hidden.get(i) == Some(&true) { Span::EMPTY } else { span(series.y.get(i).copied()) }
+    }
+
+    /// Residual in tolerances of the sample at `position`, signed; none without a tolerance.
+    #[must_use]
+    pub fn ratio(&self, series: &Series<'_>, position: usize) -> Option<f64> {
+        ratio(&self.outcome, series, position)
+    }
+
+    /// The flags, with the state that the decisions give them.
+    #[must_use]
+    pub fn flags(&self, series: &Series<'_>) -> Vec<Flag> {
+        let of = |m: &Mark| {
+            let y = series.y.get(m.position as usize).copied()?;
+            state(m).map(|state| Flag { position: m.position, y, state })
+        };
+        self.outcome.marks.iter().filter_map(of).collect()
+    }
+}
+
+fn span(value: Option<f64>) -> Span {
+    value.filter(|v| v.is_finite()).map_or(Span::EMPTY, Span::at)
+}
+
+fn ratio(outcome: &Outcome, series: &Series<'_>, i: usize) -> Option<f64> {
+    let judged = &outcome.detection.judged;
+    let (p, h) = (*judged.expected.get(i)?, *judged.tolerance.get(i)?);
+    let ratio = (series.y.get(i)? - p) / h;
+    (h > 0.0 && ratio.is_finite()).then_some(ratio)
+}
+
+/// How a mark is shown.
+#[must_use]
+pub fn state(mark: &Mark) -> Option<FlagState> {
+    match (mark.ruling, mark.verdict) {
+        (Some(Ruling::Normal), _) => Some(FlagState::Rejected),
+        (Some(Ruling::Outlier), Verdict::Outlier | Verdict::Suspect) => Some(FlagState::Accepted),
+        (Some(Ruling::Outlier), _) => Some(FlagState::ByHand),
+        (None, Verdict::Outlier) => Some(FlagState::Unreviewed),
+        (None, Verdict::Suspect) => Some(FlagState::Suspect),
+        (None, _) => None,
+    }
+}

@@ -1,0 +1,183 @@
+//! Where each panel lies: plain arithmetic on the size of the screen.
+
+use ratatui::layout::Rect;
+
+use super::action::Panel;
+use super::model::Model;
+use super::plot::GUTTER;
+
+/// The least size with something to see.
+pub const LEAST: (u16, u16) = (40, 10);
+
+/// From this width on, parameters and queue have a column of their own.
+const WIDE: u16 = 110;
+/// The width of that column, and of the drawer that takes its place on narrower screens.
+const SIDE: u16 = 36;
+
+/// Where each panel lies; none for one that has no room.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Areas {
+    /// The first line.
+    pub title: Rect,
+    /// The whole record with its rail.
+    pub overview: Option<Rect>,
+    /// The trace with its heading, rail and time axis.
+    pub trace: Option<Rect>,
+    /// The residual with its heading.
+    pub residual: Option<Rect>,
+    /// Method and parameters with their heading.
+    pub parameters: Option<Rect>,
+    /// The queue with its heading.
+    pub queue: Option<Rect>,
+    /// The card with its heading.
+    pub card: Option<Rect>,
+    /// The parameters in one line, where they have no panel.
+    pub knobs: Option<Rect>,
+    /// The line on which the program speaks.
+    pub toast: Rect,
+    /// The line of keys.
+    pub footer: Rect,
+}
+
+/// The panels for the model's screen; none when it is too small.
+#[must_use]
+pub fn arrange(model: &Model) -> Option<Areas> {
+    let (width, height) = model.size;
+    if width < LEAST.0 || height < LEAST.1 {
+        return None;
+    }
+    let whole = Rect { x: 0, y: 0, width, height };
+    if model.maximised {
+        return Some(maximised(whole, model.focus));
+    }
+    Some(if width >= WIDE && height >= 24 { wide(whole) } else { compact(whole, model.focus) })
+}
+
+/// Takes `height` rows off the top of what is left.
+fn top(rest: &mut Rect, height: u16) -> Rect {
+    let height = height.min(rest.height);
+    let taken = Rect { height, ..*rest };
+    rest.y += height;
+    rest.height -= height;
+    taken
+}
+
+/// Takes `height` rows off the bottom of what is left.
+fn bottom(rest: &mut Rect, height: u16) -> Rect {
+    let height = height.min(rest.height);
+    rest.height -= height;
+    Rect { y: rest.y + rest.height, height, ..*rest }
+}
+
+fn wide(whole: Rect) -> Areas {
+    let mut rest = whole;
+    let title = top(&mut rest, 1);
+    let footer = bottom(&mut rest, 1);
+    let toast = bottom(&mut rest, 1);
+    let side = Rect { x: rest.x + rest.width - SIDE, width: SIDE, ..rest };
+    rest.width -= SIDE;
+    let mut column = side;
+    // One row of air between the plots and the side.
+    column.x += 1;
+    column.width -= 1;
+    let parameters = top(&mut column, (side.height / 2).clamp(12, 20));
+    let overview = top(&mut rest, if whole.height >= 36 { 5 } else { 4 });
+    let card = bottom(&mut rest, 6);
+    let third = rest.height / 3;
+    let residual = bottom(&mut rest, third.clamp(5, 12));
+    Areas {
+        title,
+        overview: Some(overview),
+        trace: Some(rest),
+        residual: Some(residual),
+        parameters: Some(parameters),
+        queue: Some(column),
+        card: Some(card),
+        knobs: None,
+        toast,
+        footer,
+    }
+}
+
+fn compact(whole: Rect, focus: Panel) -> Areas {
+    let mut rest = whole;
+    let title = top(&mut rest, 1);
+    let footer = bottom(&mut rest, 1);
+    let toast = bottom(&mut rest, 1);
+    let small = whole.width < 60 || whole.height < 16;
+    let overview = (whole.height >= 20 && !small).then(|| top(&mut rest, 2));
+    let knobs = (!small).then(|| bottom(&mut rest, 1));
+    let card = bottom(&mut rest, if small { 2 } else { 3 });
+    let quarter = rest.height / 4;
+    let residual = (whole.height >= 24 && !small).then(|| bottom(&mut rest, quarter.clamp(4, 9)));
+    // The drawer lies over the plots while one of its panels has the keyboard.
+    let drawer = Rect {
+        x: whole.width - SIDE.min(whole.width),
+        y: 1,
+        width: SIDE.min(whole.width),
+        height: whole.height.saturating_sub(3),
+    };
+    let parameters = (focus == Panel::Parameters).then_some(drawer);
+    let queue = (focus == Panel::Queue).then_some(drawer);
+    Areas { title, overview, trace: Some(rest), residual, parameters, queue, card: Some(card), knobs, toast, footer }
+}
+
+fn maximised(whole: Rect, focus: Panel) -> Areas {
+    let mut rest = whole;
+    let title = top(&mut rest, 1);
+    let footer = bottom(&mut rest, 1);
+    let toast = bottom(&mut rest, 1);
+    let mut areas = Areas { title, toast, footer, ..Areas::default() };
+    let slot = match focus {
+        Panel::Trace => &mut areas.trace,
+        Panel::Residual => &mut areas.residual,
+        Panel::Parameters => &mut areas.parameters,
+        Panel::Queue => &mut areas.queue,
+        Panel::Card => &mut areas.card,
+    };
+    *slot = Some(rest);
+    areas
+}
+
+/// Columns of cells on which the trace draws samples.
+#[must_use]
+pub fn plot_columns(model: &Model) -> u16 {
+    let areas = arrange(model);
+    let area = areas.and_then(|a| a.trace.or(a.residual)).unwrap_or_default();
+    area.width.saturating_sub(GUTTER)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panels_lie_on_the_screen_and_side_by_side_at_every_size() {
+        for width in LEAST.0..200 {
+            for height in LEAST.1..70 {
+                let whole = Rect { x: 0, y: 0, width, height };
+                let areas = if width >= WIDE && height >= 24 { wide(whole) } else { compact(whole, Panel::Trace) };
+                let panels = [
+                    Some(areas.title),
+                    areas.overview,
+                    areas.trace,
+                    areas.residual,
+                    areas.parameters,
+                    areas.queue,
+                    areas.card,
+                    areas.knobs,
+                    Some(areas.toast),
+                    Some(areas.footer),
+                ];
+                let panels: Vec<Rect> = panels.into_iter().flatten().collect();
+                for (i, a) in panels.iter().enumerate() {
+                    assert_eq!(whole.intersection(*a), *a, "{width}x{height}");
+                    assert!(panels[i + 1..].iter().all(|b| a.intersection(*b).is_empty()), "{width}x{height}");
+                }
+                // A heading, three rows of curve, the rail and the axis.
+                let trace = areas.trace.unwrap_or_default();
+                assert!(trace.height >= 4, "{width}x{height}: {trace:?}");
+            }
+        }
+    }
+}

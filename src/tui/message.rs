@@ -1,0 +1,82 @@
+//! What can happen to the workbench, and what it asks the outside for.
+
+use std::path::PathBuf;
+
+use ratatui::crossterm::event::KeyEvent;
+
+use super::drawn::Drawn;
+use crate::error::Result;
+
+/// Something that happened.
+#[derive(Debug)]
+pub enum Message {
+    /// A key was pressed.
+    Key(KeyEvent),
+    /// Text was pasted.
+    Paste(String),
+    /// The screen has another size.
+    Resize(u16, u16),
+    /// The worker has judged a channel.
+    Analysed {
+        /// The job it answers.
+        generation: u64,
+        /// Index of the plan.
+        plan: usize,
+        /// The result, ready to draw.
+        result: Result<Box<Drawn>>,
+    },
+    /// A file was written, or not.
+    Written {
+        /// What it was.
+        what: Written,
+        /// Where.
+        path: PathBuf,
+        /// A few words for the user, or what went wrong.
+        result: Result<String>,
+    },
+}
+
+/// What was written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Written {
+    /// The session, when the document was at this revision.
+    Session {
+        /// The revision of the document.
+        revision: u64,
+        /// Quit when it has worked.
+        then_quit: bool,
+    },
+    /// The cleaned file.
+    Cleaned,
+}
+
+/// Something that the outside has to do.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Effect {
+    /// Judge the channel of this plan under the session as it is now.
+    Analyse(usize),
+    /// Abandon the running judgement.
+    Cancel,
+    /// Write the session.
+    Save {
+        /// Where.
+        path: PathBuf,
+        /// Whether it may take the place of a file that is there.
+        overwrite: bool,
+        /// Quit when it has worked.
+        then_quit: bool,
+    },
+    /// Write the cleaned file.
+    Export {
+        /// Where.
+        path: PathBuf,
+        /// Whether it may take the place of a file that is there.
+        overwrite: bool,
+    },
+    /// Draw everything again, whatever the terminal shows.
+    Redraw,
+    /// Hand the terminal back to the shell until it lets the program go on.
+    Suspend,
+    /// End the program.
+    Quit,
+}

@@ -1,0 +1,124 @@
+//! Work done beside the screen: judging on the worker thread, files on threads of their own.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crossbeam_channel::Sender;
+
+use super::drawn::Drawn;
+use super::message::{Message, Written};
+use super::model::Model;
+use crate::error::{Error, Result};
+use crate::job::Worker;
+use crate::review::Decisions;
+use crate::session::{Analysed, Detection, Session, Setup, detect, document, settle, write_cleaned};
+use crate::stop::Stop;
+use crate::track::{Outputs, Samples, Track};
+
+/// A channel to judge.
+#[derive(Debug)]
+pub struct Judge {
+    track: Arc<Track>,
+    plan: usize,
+    channel: usize,
+    samples: Arc<Samples>,
+    setup: Setup,
+    decisions: Decisions,
+    previous: Option<Arc<Detection>>,
+}
+
+impl Judge {
+    /// The job for a plan of the model as it is now.
+    #[must_use]
+    pub fn new(model: &Model, plan: usize) -> Self {
+        let state = &model.channels[plan];
+        Self {
+            track: Arc::clone(&model.track),
+            plan,
+            channel: state.channel,
+            samples: Arc::clone(&state.samples),
+            setup: model.session.plans[plan].setup.clone(),
+            decisions: model.session.plans[plan].decisions.clone(),
+            previous: state.drawn.as_ref().map(|d| Arc::clone(&d.outcome.detection)),
+        }
+    }
+
+    /// Does it.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`], and what the method cannot do under the settings.
+    pub fn run(&self, stop: &Stop) -> Result<Drawn> {
+        let channel = &self.track.channels[self.channel];
+        let detection = match &self.previous {
+            Some(previous) if previous.setup.same_detection(&self.setup) => {
+                // Only repair or decisions have changed: what the method says stands.
+                let same = previous.setup == self.setup;
+                if same { Arc::clone(previous) } else { Arc::new(previous.with_repair(&self.setup)) }
+            }
+            previous => {
+                let previous = previous.as_deref();
+                Arc::new(detect(&self.track, channel, &self.samples, &self.setup, previous, stop)?)
+            }
+        };
+        let outcome = settle(&self.track, channel, &self.samples, detection, &self.decisions, stop)?;
+        stop.check()?;
+        Ok(Drawn::new(outcome, &self.samples.series(channel, &self.track.time)))
+    }
+}
+
+/// A worker that judges channels and sends what comes out.
+#[must_use]
+pub fn judge(results: Sender<Message>) -> Worker<Judge> {
+    Worker::new(move |generation, job: Judge, stop: &Stop| {
+        let result = job.run(stop).map(Box::new);
+        // Nobody listens any more when the program is about to end.
+        let _ = results.send(Message::Analysed { generation, plan: job.plan, result });
+    })
+}
+
+/// What is to be written.
+#[derive(Debug, Clone)]
+pub struct Errand {
+    /// What, and when.
+    pub what: Written,
+    /// Where.
+    pub path: PathBuf,
+    /// Whether it may take the place of a file that is there.
+    pub overwrite: bool,
+}
+
+/// Writes a file on a thread of its own and sends how it went.
+pub fn write(track: Arc<Track>, session: Session, errand: Errand, results: Sender<Message>) {
+    std::thread::spawn(move || {
+        let result = match errand.what {
+            Written::Session { .. } => save(&track, session, &errand),
+            Written::Cleaned => export(&track, &session, &errand),
+        };
+        let _ = results.send(Message::Written { what: errand.what, path: errand.path, result });
+    });
+}
+
+fn save(track: &Track, mut session: Session, errand: &Errand) -> Result<String> {
+    let analysed = Analysed::of(&session, track, &Stop::never())?;
+    let text = document(&mut session, track, &analysed, &errand.path)?;
+    put(track, errand, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", &errand.path)))?;
+    let channels = session.plans.iter().map(|p| p.channel.as_str()).collect::<Vec<_>>().join(", ");
+    let decisions: usize = session.plans.iter().map(|p| p.decisions.len()).sum();
+    let path = errand.path.display();
+    Ok(format!("saved {path}: {channels}; {} flagged, {decisions} decisions", analysed.flagged()))
+}
+
+fn export(track: &Track, session: &Session, errand: &Errand) -> Result<String> {
+    let analysed = Analysed::of(session, track, &Stop::never())?;
+    let changes = analysed.changes(track);
+    put(track, errand, |w| write_cleaned(track, &changes, w).map(|_| ()))?;
+    let path = errand.path.display();
+    Ok(format!("wrote {path}: {} cells changed, the others byte for byte as they were", changes.cells.len()))
+}
+
+fn put(track: &Track, errand: &Errand, fill: impl FnOnce(&mut dyn std::io::Write) -> Result<()>) -> Result<()> {
+    let inputs: Vec<&Path> = track.source.path().into_iter().collect();
+    let mut files = Outputs::new(errand.overwrite, &inputs);
+    files.stage(&errand.path, fill)?;
+    files.commit()
+}

@@ -1,0 +1,180 @@
+//! The residual in units of the tolerance: each sample where there is room, else the worst of each column.
+
+use std::ops::Range;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::widgets::Widget;
+
+use super::columns::Columns;
+use super::dots::{DOTS_PER_COLUMN, Dots};
+use super::flags::FlagState;
+use super::glyphs::Glyphs;
+use super::paint::{Paint, right_of_margin};
+use super::pyramid::{Pyramid, Span};
+use super::scale::YScale;
+use crate::tui::theme::Theme;
+
+/// Samples per column of cells up to which each is drawn with its sign.
+const SIGNED_UP_TO: usize = 4;
+
+/// The residual widget: the ratio (raw value minus expected value) / tolerance, with a dotted line where it is 1.
+/// Samples without a tolerance leave a gap.
+#[derive(Clone)]
+pub struct ResidualPlot<'a> {
+    /// Tells which samples each column holds; the same that the trace above is drawn from.
+    pub columns: &'a Columns,
+    /// Signed ratio of a position; none without a tolerance.
+    pub ratio: &'a dyn Fn(usize) -> Option<f64>,
+    /// The extremes of the ratio, from [`ResidualPlot::pyramid`].
+    pub pyramid: &'a Pyramid,
+    /// The ratio at the upper edge; larger ones are cut and marked.
+    pub top: f64,
+    /// Styles.
+    pub theme: &'a Theme,
+    /// Characters.
+    pub glyphs: Glyphs,
+    /// Position of the sample under the cursor.
+    pub cursor: Option<usize>,
+}
+
+impl ResidualPlot<'_> {
+    /// A good ratio for the upper edge: the threshold is a third of the way up.
+    pub const TOP: f64 = 3.0;
+
+    /// The extremes of `len` ratios.
+    #[must_use]
+    pub fn pyramid(len: usize, ratio: impl Fn(usize) -> Option<f64>) -> Pyramid {
+        Pyramid::build_spans(len, |i| span(ratio(i)))
+    }
+
+    /// True when each sample is drawn with its sign, false when each column shows its worst.
+    #[must_use]
+    pub fn is_signed(&self) -> bool {
+        self.columns.in_view().len() <= SIGNED_UP_TO * usize::from(self.columns.grid().width)
+    }
+
+    fn top(&self) -> f64 {
+        if self.top > 1.0 && self.top < 1e6 { self.top } else { Self::TOP }
+    }
+
+    /// The largest |ratio| of some positions; none when none has a tolerance.
+    fn worst(&self, positions: Range<usize>) -> Option<f64> {
+        let all = self.pyramid.span_over(|i| span((self.ratio)(i)), positions);
+        (!all.is_empty()).then(|| all.high.abs().max(all.low.abs()))
+    }
+
+    fn margin(&self, paint: &mut Paint<'_>, scale: YScale) {
+        let height = paint.height();
+        let top = self.top();
+        for row in 0..height {
+            paint.margin(row, "", self.glyphs.vertical(), self.theme.dim);
+        }
+        let bottom = if self.is_signed() { -top } else { 0.0 };
+        for value in [bottom, top, 0.0, 1.0] {
+            if let Some(row) = scale.row(value) {
+                paint.margin(row, &format!("{value:.1}"), self.glyphs.tick(), self.theme.dim);
+            }
+        }
+    }
+
+    fn bars(&self, paint: &mut Paint<'_>, scale: YScale) {
+        let height = paint.height();
+        let threshold = scale.row(1.0);
+        let cursor = self.cursor.and_then(|position| self.columns.column_of(position));
+        for column in 0..paint.width().min(self.columns.grid().width) {
+            let worst = self.worst(self.columns.positions(column));
+            let over = worst.is_some_and(|worst| worst > 1.0);
+            let beyond = worst.is_some_and(|worst| worst > self.top());
+            // The part of the height that the bar takes, in eighths of a cell; a bar of nothing still shows that
+            // there was something to judge.
+            let eighths = worst
+                .map_or(0.0, |worst| (worst.min(self.top()) / self.top() * f64::from(height) * 8.0).ceil().max(1.0))
+                as u32;
+            for row in 0..height {
+                let below = u32::from(height - 1 - row) * 8;
+                let fill = eighths.saturating_sub(below).min(8) as u8;
+                let bar = if over && self.glyphs == Glyphs::Ascii { '#' } else { self.glyphs.bar(fill) };
+                let style = if over { self.theme.over } else { self.theme.dim };
+                let (glyph, style) = match fill {
+                    _ if beyond && row == 0 => (self.glyphs.beyond(true, false), self.theme.over),
+                    0 if Some(row) == threshold => (self.glyphs.threshold(), self.theme.threshold),
+                    0 => (' ', Style::new()),
+                    _ => (bar, style),
+                };
+                let (glyph, style) = self.cursor(glyph, style, cursor == Some(column));
+                paint.put(column, row, glyph, style);
+            }
+        }
+    }
+
+    fn points(&self, paint: &mut Paint<'_>, scale: YScale) {
+        let grid = self.columns.grid();
+        let (width, height) = (paint.width().min(grid.width), paint.height());
+        let mut dots = Dots::new(width, height);
+        let mut over = vec![false; usize::from(width) * usize::from(height)];
+        let mut beyond = vec![(false, false); usize::from(width)];
+        for (dot_column, edges) in self.columns.starts.windows(2).enumerate().take(usize::from(width) * DOTS_PER_COLUMN)
+        {
+            let column = dot_column / DOTS_PER_COLUMN;
+            for ratio in (edges[0]..edges[1]).filter_map(self.ratio) {
+                match scale.row(ratio) {
+                    Some(row) => {
+                        dots.set(dot_column as i32, scale.dot_row(ratio));
+                        over[usize::from(row) * usize::from(width) + column] |= ratio.abs() > 1.0;
+                    }
+                    None => {
+                        beyond[column].0 |= ratio > 0.0;
+                        beyond[column].1 |= ratio < 0.0;
+                    }
+                }
+            }
+        }
+        let cursor = self.cursor.and_then(|position| self.columns.column_of(position));
+        let lines = [scale.row(1.0), scale.row(-1.0)];
+        for column in 0..width {
+            let (above, below) = beyond[usize::from(column)];
+            for row in 0..height {
+                let (above, below) = (above && row == 0, below && row + 1 == height);
+                let mask = dots.mask(usize::from(column), usize::from(row));
+                let (glyph, style) = if above || below {
+                    (self.glyphs.beyond(above, below), self.theme.over)
+                } else if over[usize::from(row) * usize::from(width) + usize::from(column)] {
+                    (self.glyphs.flag(FlagState::Unreviewed), self.theme.over)
+                } else if mask != 0 {
+                    (self.glyphs.dots(mask), self.theme.raw)
+                } else if lines.contains(&Some(row)) {
+                    (self.glyphs.threshold(), self.theme.threshold)
+                } else {
+                    (' ', Style::new())
+                };
+                let (glyph, style) = self.cursor(glyph, style, cursor == Some(column));
+                paint.put(column, row, glyph, style);
+            }
+        }
+    }
+
+    /// Draws the cursor's column through what is empty.
+    fn cursor(&self, glyph: char, style: Style, on_cursor: bool) -> (char, Style) {
+        if on_cursor && glyph == ' ' { (self.glyphs.vertical(), self.theme.cursor_line) } else { (glyph, style) }
+    }
+}
+
+fn span(ratio: Option<f64>) -> Span {
+    ratio.map_or(Span::EMPTY, Span::at)
+}
+
+impl Widget for ResidualPlot<'_> {
+    fn render(self, area: Rect, buffer: &mut Buffer) {
+        let signed = self.is_signed();
+        let area = area.intersection(*buffer.area());
+        let scale = YScale::new(if signed { -self.top() } else { 0.0 }, self.top(), area.height);
+        self.margin(&mut Paint::new(buffer, area), scale);
+        let mut paint = Paint::new(buffer, right_of_margin(area));
+        for row in 0..paint.height() {
+            paint.clear_row(row);
+        }
+        if signed { self.points(&mut paint, scale) } else { self.bars(&mut paint, scale) }
+    }
+}

@@ -1,0 +1,112 @@
+//! The terminal: taken over at the start, given back at every end.
+
+use std::io::{BufWriter, Stdout, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use ratatui::Terminal;
+use ratatui::backend::CrosstermBackend;
+use ratatui::crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
+use ratatui::crossterm::style::force_color_output;
+use ratatui::crossterm::terminal::{
+    BeginSynchronizedUpdate, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode,
+    enable_raw_mode,
+};
+use ratatui::crossterm::{cursor, execute, queue};
+use ratatui::layout::Rect;
+
+use super::model::Model;
+use super::view::view;
+use crate::error::{Error, Result};
+
+/// A whole frame fits, so that it is one write.
+const BUFFER: usize = 64 << 10;
+
+/// True while the terminal is ours.
+static TAKEN: AtomicBool = AtomicBool::new(false);
+
+/// The screen of the workbench.
+pub(super) struct Screen(Terminal<CrosstermBackend<BufWriter<Stdout>>>);
+
+impl Screen {
+    /// Takes the terminal over.
+    pub(super) fn take() -> Result<Self> {
+        // Colours are ours to choose: crossterm's own handling of NO_COLOR also cancels reverse and bold.
+        force_color_output(true);
+        give_back_on_panic();
+        enter()?;
+        let backend = CrosstermBackend::new(BufWriter::with_capacity(BUFFER, std::io::stdout()));
+        Terminal::new(backend).map(Self).map_err(failed)
+    }
+
+    /// Columns and rows.
+    pub(super) fn size(&self) -> Result<(u16, u16)> {
+        self.0.size().map(|s| (s.width, s.height)).map_err(failed)
+    }
+
+    /// Draws the model; terminals that can, show the frame at once.
+    pub(super) fn draw(&mut self, model: &Model) -> Result<()> {
+        queue!(self.0.backend_mut(), BeginSynchronizedUpdate).map_err(failed)?;
+        self.0.draw(|frame| view(model, frame)).map_err(failed)?;
+        execute!(self.0.backend_mut(), EndSynchronizedUpdate).map_err(failed)
+    }
+
+    /// Forgets what the terminal shows, so that the next frame is drawn whole. (`Terminal::clear` would ask the
+    /// terminal where its cursor is and wait for the answer.)
+    pub(super) fn forget(&mut self) -> Result<()> {
+        let (width, height) = self.size()?;
+        self.0.resize(Rect { x: 0, y: 0, width, height }).map_err(failed)
+    }
+
+    /// Gives the terminal back until the shell lets the program go on.
+    pub(super) fn suspend(&mut self) -> Result<()> {
+        leave();
+        #[cfg(unix)]
+        signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP).map_err(failed)?;
+        enter()?;
+        self.forget()
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        leave();
+    }
+}
+
+fn failed(source: std::io::Error) -> Error {
+    Error::Io { action: "use", path: "the terminal".into(), source }
+}
+
+fn enter() -> Result<()> {
+    enable_raw_mode().map_err(failed)?;
+    TAKEN.store(true, Ordering::SeqCst);
+    execute!(std::io::stdout(), EnterAlternateScreen, EnableBracketedPaste, cursor::Hide).map_err(failed)
+}
+
+/// Gives the terminal back, once.
+pub(super) fn leave() {
+    if TAKEN.swap(false, Ordering::SeqCst) {
+        // A terminal that is gone cannot be restored.
+        let _ = execute!(
+            std::io::stdout(),
+            EndSynchronizedUpdate,
+            DisableBracketedPaste,
+            LeaveAlternateScreen,
+            cursor::Show
+        );
+        let _ = std::io::stdout().flush();
+        let _ = disable_raw_mode();
+    }
+}
+
+/// A panic gives the terminal back before it speaks.
+fn give_back_on_panic() {
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        let before = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |info| {
+            leave();
+            before(info);
+        }));
+    });
+}

@@ -1,0 +1,335 @@
+//! The one place where the state of the workbench changes: a message comes in, effects go out. No input or output
+//! and no clock here.
+
+use super::action::{Action, Panel};
+use super::keys::{Meaning, meaning};
+use super::message::{Effect, Message, Written};
+use super::model::{Knob, Model, Overlay, Picker, PickerKind, Prompt, PromptKind, Sort, Tone};
+use crate::error::Error;
+use crate::review::Change;
+use crate::session::{Edit, Setup};
+
+mod command;
+mod files;
+mod navigate;
+mod overlay;
+mod review;
+mod tune;
+
+pub use command::{COMMANDS, Command};
+pub use files::{default_export, default_session};
+pub use overlay::{Entry, narrowed};
+pub(super) use review::mark_at;
+pub(super) use tune::value_text;
+
+/// Takes a message in; gives what the outside has to do.
+pub fn update(model: &mut Model, message: Message) -> Vec<Effect> {
+    match message {
+        Message::Key(key) => {
+            if !matches!(model.overlay, Overlay::None) {
+                return overlay::key(model, key);
+            }
+            let prefix = model.prefix.take();
+            match meaning(key, prefix, model.focus) {
+                Meaning::Action(action) => act(model, action),
+                Meaning::Prefix(first) => {
+                    model.prefix = Some(first);
+                    Vec::new()
+                }
+                Meaning::Nothing => Vec::new(),
+            }
+        }
+        Message::Paste(text) => overlay::paste(model, &text),
+        Message::Resize(width, height) => {
+            model.size = (width, height);
+            Vec::new()
+        }
+        Message::Analysed { generation, plan, result } => {
+            analysed(model, generation, plan, result);
+            Vec::new()
+        }
+        Message::Written { what, path, result } => files::written(model, what, &path, result),
+    }
+}
+
+/// Does what an action means.
+pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
+    if action != Action::Interrupt {
+        model.interrupted = false;
+        model.toast = None;
+    }
+    match action {
+        Action::Help => open(model, Overlay::Help(tui_input::Input::default(), 0)),
+        Action::Command => prompt(model, PromptKind::Command, ""),
+        Action::Jump => prompt(model, PromptKind::Jump, ""),
+        Action::Methods => picker(model, PickerKind::Method),
+        Action::Repairs => picker(model, PickerKind::Repair),
+        Action::Channels => picker(model, PickerKind::Channel),
+        Action::NextPanel => focus(model, 1),
+        Action::PreviousPanel => focus(model, Panel::ALL.len() - 1),
+        Action::Panel(panel) => {
+            model.focus = panel;
+            Vec::new()
+        }
+        Action::Maximise => {
+            model.maximised = !model.maximised;
+            Vec::new()
+        }
+        Action::Undo => undo(model),
+        Action::Redo => redo(model),
+        Action::Save => files::save(model, None, false, false),
+        Action::Export => files::export(model, None, false),
+        Action::Quit => quit(model),
+        Action::Interrupt => interrupt(model),
+        Action::Redraw => vec![Effect::Redraw],
+        Action::Suspend => vec![Effect::Suspend],
+        Action::Back => back(model),
+        Action::Sort => sort(model),
+        Action::StepUp => tune::step(model, 1),
+        Action::StepDown => tune::step(model, -1),
+        Action::StepUpFar => tune::step(model, 10),
+        Action::StepDownFar => tune::step(model, -10),
+        Action::NextKnob => tune::choose(model, 1),
+        Action::PreviousKnob => tune::choose(model, -1),
+        Action::TypeValue => tune::type_value(model),
+        Action::DefaultValue => tune::to_default(model),
+        Action::Preset => tune::other_preset(model),
+        Action::NextChannel => {
+            let next = (model.shown + 1) % model.channels.len();
+            show(model, next)
+        }
+        Action::NextFlag
+        | Action::PreviousFlag
+        | Action::NextUnreviewed
+        | Action::PreviousUnreviewed
+        | Action::Accept
+        | Action::Reject
+        | Action::Toggle
+        | Action::Clear
+        | Action::ByHand
+        | Action::Note
+        | Action::AcceptView
+        | Action::RejectView
+        | Action::ClearView => review::act(model, action),
+        _ => {
+            navigate::act(model, action);
+            Vec::new()
+        }
+    }
+}
+
+/// Shows the channel of another plan.
+pub(super) fn show(model: &mut Model, plan: usize) -> Vec<Effect> {
+    if plan == model.shown || plan >= model.channels.len() {
+        if model.channels.len() == 1 {
+            model.say(Tone::Warning, "this record has one channel only");
+        }
+        return Vec::new();
+    }
+    model.shown = plan;
+    let text = format!("{} · channel {} of {}", model.plan().channel, plan + 1, model.channels.len());
+    model.say(Tone::Done, text);
+    if model.state().stale && model.state().error.is_none() { vec![Effect::Analyse(plan)] } else { Vec::new() }
+}
+
+/// Makes an edit that can be undone; the channel is judged again.
+pub(super) fn commit(model: &mut Model, edit: Edit) -> Vec<Effect> {
+    model.session.apply(&edit);
+    if !join(model, &edit) {
+        model.history.push(edit);
+    }
+    changed(model, model.shown)
+}
+
+/// Joins a step of a knob to the steps of the same knob just before it, so that one undo takes them all back.
+fn join(model: &mut Model, edit: &Edit) -> bool {
+    let (Some(Edit::Setup { plan, before, after }), Edit::Setup { plan: now, before: middle, after: last }) =
+        (model.history.last_mut(), edit)
+    else {
+        return false;
+    };
+    let same = *plan == *now && after == middle && tune::knob_between(before, after).is_some();
+    if same && tune::knob_between(before, after) == tune::knob_between(middle, last) {
+        after.clone_from(last);
+        return true;
+    }
+    false
+}
+
+/// The session has changed: it is not saved, and its result is not the one on the screen.
+fn changed(model: &mut Model, plan: usize) -> Vec<Effect> {
+    model.revision += 1;
+    let state = &mut model.channels[plan];
+    state.touched = true;
+    state.stale = true;
+    state.error = None;
+    vec![Effect::Analyse(plan)]
+}
+
+/// Changes method, settings or repair of the channel on the screen.
+pub(super) fn set_up(model: &mut Model, after: Setup) -> Vec<Effect> {
+    let before = model.plan().setup.clone();
+    if before == after {
+        return Vec::new();
+    }
+    let plan = model.shown;
+    commit(model, Edit::Setup { plan, before: Box::new(before), after: Box::new(after) })
+}
+
+fn undo(model: &mut Model) -> Vec<Effect> {
+    let Some(edit) = model.history.undo() else {
+        model.say(Tone::Warning, "nothing to undo");
+        return Vec::new();
+    };
+    model.session.revert(&edit);
+    after_history(model, &edit, "undone", "U redo")
+}
+
+fn redo(model: &mut Model) -> Vec<Effect> {
+    let Some(edit) = model.history.redo() else {
+        model.say(Tone::Warning, "nothing to redo");
+        return Vec::new();
+    };
+    model.session.apply(&edit);
+    after_history(model, &edit, "done again", "u undo")
+}
+
+fn after_history(model: &mut Model, edit: &Edit, verb: &str, way_back: &str) -> Vec<Effect> {
+    let (Edit::Decide { plan, .. } | Edit::Setup { plan, .. }) = edit;
+    model.shown = *plan;
+    if let Edit::Decide { changes, .. } = edit
+        && let Some(first) = changes.first()
+        && let Some(position) = model.series().position(first.row as usize)
+    {
+        navigate::go_to(model, position);
+    }
+    let text = format!("{verb}: {} · {way_back}", describe(model, edit));
+    model.say(Tone::Done, text);
+    changed(model, *plan)
+}
+
+/// An edit in few words.
+fn describe(model: &Model, edit: &Edit) -> String {
+    match edit {
+        Edit::Decide { changes, .. } => match changes.as_slice() {
+            [Change { row, after, .. }] => {
+                let what = after.as_ref().map_or("decision taken back", |d| d.ruling.verdict().word());
+                format!("row {} {what}", row + 1)
+            }
+            several => format!("decisions on {} samples", several.len()),
+        },
+        Edit::Setup { before, after, .. } => {
+            let _ = model;
+            match tune::knob_between(before, after) {
+                Some((name, from, to)) => format!("{name} {from} → {to}"),
+                None => format!("{} → {}", before.method.about().id, after.method.about().id),
+            }
+        }
+    }
+}
+
+fn analysed(model: &mut Model, generation: u64, plan: usize, result: crate::error::Result<Box<super::drawn::Drawn>>) {
+    if model.awaited != Some(generation) {
+        return;
+    }
+    model.awaited = None;
+    match result {
+        Ok(drawn) => {
+            let first = model.channels[plan].drawn.is_none();
+            files::arrange(model, plan, *drawn);
+            if first && let Some(&at) = model.channels[plan].drawn.as_ref().and_then(|d| d.positions.first()) {
+                model.channels[plan].cursor = at as usize;
+            }
+        }
+        Err(Error::Stopped) => {}
+        Err(e) => {
+            let text = e.to_string().replace("\n  ", "; ");
+            model.channels[plan].error = Some(text.clone());
+            model.say(Tone::Error, text);
+        }
+    }
+}
+
+fn sort(model: &mut Model) -> Vec<Effect> {
+    model.sort = match model.sort {
+        Sort::Time => Sort::Ratio,
+        Sort::Ratio => Sort::State,
+        Sort::State => Sort::Time,
+    };
+    for plan in 0..model.channels.len() {
+        files::queue(model, plan);
+    }
+    let by = match model.sort {
+        Sort::Time => "time",
+        Sort::Ratio => "ratio, largest first",
+        Sort::State => "state, undecided first",
+    };
+    model.say(Tone::Done, format!("queue by {by}"));
+    Vec::new()
+}
+
+fn focus(model: &mut Model, by: usize) -> Vec<Effect> {
+    let at = Panel::ALL.iter().position(|p| *p == model.focus).unwrap_or(0);
+    model.focus = Panel::ALL[(at + by) % Panel::ALL.len()];
+    Vec::new()
+}
+
+fn open(model: &mut Model, overlay: Overlay) -> Vec<Effect> {
+    model.overlay = overlay;
+    Vec::new()
+}
+
+pub(super) fn prompt(model: &mut Model, kind: PromptKind, text: &str) -> Vec<Effect> {
+    open(model, Overlay::Prompt(Prompt { kind, input: text.into(), error: None }))
+}
+
+pub(super) fn picker(model: &mut Model, kind: PickerKind) -> Vec<Effect> {
+    let choice = overlay::entries(model, kind).iter().position(|e| e.current).unwrap_or(0);
+    open(model, Overlay::Picker(Picker { kind, filter: tui_input::Input::default(), choice }))
+}
+
+fn quit(model: &mut Model) -> Vec<Effect> {
+    if model.unsaved() { open(model, Overlay::ConfirmQuit) } else { vec![Effect::Quit] }
+}
+
+/// Ctrl-C stops the computation; the second one in a row is about quitting.
+fn interrupt(model: &mut Model) -> Vec<Effect> {
+    if model.awaited.take().is_some() {
+        model.say(Tone::Warning, "computation stopped; any change starts it again");
+        model.interrupted = true;
+        return vec![Effect::Cancel];
+    }
+    if model.interrupted {
+        return quit(model);
+    }
+    model.interrupted = true;
+    model.say(Tone::Warning, "Ctrl-C again to quit (or q)");
+    Vec::new()
+}
+
+fn back(model: &mut Model) -> Vec<Effect> {
+    if model.maximised {
+        model.maximised = false;
+    } else if model.awaited.take().is_some() {
+        model.say(Tone::Warning, "computation stopped; any change starts it again");
+        return vec![Effect::Cancel];
+    } else {
+        model.focus = Panel::Trace;
+    }
+    Vec::new()
+}
+
+/// What opens when the value of a knob is to be chosen from a list.
+pub(super) fn list_of(knob: Knob) -> Option<PickerKind> {
+    match knob {
+        Knob::Method => Some(PickerKind::Method),
+        Knob::Rate => Some(PickerKind::Rate),
+        Knob::Repair(p) if p.key == crate::repair::METHOD.key => Some(PickerKind::Repair),
+        Knob::Detection(_) | Knob::Repair(_) => None,
+    }
+}
+
+/// The message for the footer when the session was saved, or not.
+pub(super) fn is_session(what: Written) -> bool {
+    matches!(what, Written::Session { .. })
+}

@@ -1,0 +1,229 @@
+//! Keys while something lies over the panels: help, lists, prompts, the question before quitting.
+
+use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use tui_input::{Input, InputRequest};
+
+use super::super::message::Effect;
+use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
+use super::{command, files, review, set_up, show, tune};
+use crate::method::METHODS;
+use crate::repair::REPAIRS;
+use crate::track::printable;
+
+/// One line of a list to choose from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Entry {
+    /// What is chosen.
+    pub id: String,
+    /// A few words beside it.
+    pub help: String,
+    /// The group it stands in; empty for none.
+    pub group: &'static str,
+    /// True for the one in force.
+    pub current: bool,
+}
+
+/// The lines of a list, before it is narrowed.
+#[must_use]
+pub(super) fn entries(model: &Model, kind: PickerKind) -> Vec<Entry> {
+    let setup = &model.plan().setup;
+    match kind {
+        PickerKind::Method => METHODS
+            .iter()
+            .map(|m| m.about())
+            .map(|a| Entry {
+                id: a.id.into(),
+                help: a.name.into(),
+                group: a.family,
+                current: a.id == setup.method.about().id,
+            })
+            .collect(),
+        PickerKind::Repair => {
+            let chosen = crate::repair::chosen(&setup.repair).id;
+            REPAIRS
+                .iter()
+                .map(|r| Entry { id: r.id.into(), help: r.help.into(), group: "", current: r.id == chosen })
+                .collect()
+        }
+        PickerKind::Channel | PickerKind::Rate => {
+            let rate = kind == PickerKind::Rate;
+            let current = if rate { setup.rate.clone() } else { Some(model.plan().channel.clone()) };
+            let names = model.track.channels.iter().filter(|c| !rate || c.name != model.plan().channel);
+            let names = names.filter(|c| rate || model.session.plans.iter().any(|p| p.channel == c.name));
+            names
+                .map(|c| Entry {
+                    id: c.name.clone(),
+                    help: printable(&c.unit),
+                    group: "",
+                    current: Some(&c.name) == current.as_ref(),
+                })
+                .collect()
+        }
+    }
+}
+
+/// The lines that fit what was typed: every word of it occurs in id, help or group.
+#[must_use]
+pub fn narrowed(model: &Model, picker: &Picker) -> Vec<Entry> {
+    let words: Vec<String> = picker.filter.value().split_whitespace().map(str::to_lowercase).collect();
+    let fits = |e: &Entry| {
+        let text = format!("{} {} {}", e.id, e.help, e.group).to_lowercase();
+        words.iter().all(|w| text.contains(w.as_str()))
+    };
+    entries(model, picker.kind).into_iter().filter(fits).collect()
+}
+
+/// A key while something lies over the panels.
+pub(super) fn key(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
+    let overlay = std::mem::take(&mut model.overlay);
+    let gone = key.code == KeyCode::Esc || (key.code == KeyCode::Char('c') && control(key));
+    if gone {
+        return Vec::new();
+    }
+    match overlay {
+        Overlay::None => Vec::new(),
+        Overlay::Help(filter, from) => {
+            model.overlay = help(filter, from, key);
+            Vec::new()
+        }
+        Overlay::Picker(picker) => pick(model, picker, key),
+        Overlay::Prompt(prompt) => type_in(model, prompt, key),
+        Overlay::ConfirmQuit => confirm(model, key),
+    }
+}
+
+/// Pasted text goes where text is typed, and nowhere else.
+pub(super) fn paste(model: &mut Model, text: &str) -> Vec<Effect> {
+    let input = match &mut model.overlay {
+        Overlay::Prompt(prompt) => &mut prompt.input,
+        Overlay::Picker(picker) => &mut picker.filter,
+        Overlay::Help(filter, _) => filter,
+        Overlay::None | Overlay::ConfirmQuit => return Vec::new(),
+    };
+    for c in text.chars().filter(|c| !c.is_control()) {
+        input.handle(InputRequest::InsertChar(c));
+    }
+    Vec::new()
+}
+
+fn control(key: KeyEvent) -> bool {
+    key.modifiers.contains(KeyModifiers::CONTROL)
+}
+
+fn help(mut filter: Input, from: usize, key: KeyEvent) -> Overlay {
+    let from = match key.code {
+        KeyCode::Enter => return Overlay::None,
+        KeyCode::Down => from + 1,
+        KeyCode::Up => from.saturating_sub(1),
+        KeyCode::PageDown => from + 10,
+        KeyCode::PageUp => from.saturating_sub(10),
+        KeyCode::Home => 0,
+        KeyCode::Char('q' | '?') if filter.value().is_empty() => return Overlay::None,
+        _ => {
+            edit(&mut filter, key);
+            0
+        }
+    };
+    Overlay::Help(filter, from)
+}
+
+fn pick(model: &mut Model, mut picker: Picker, key: KeyEvent) -> Vec<Effect> {
+    let found = narrowed(model, &picker);
+    let n = found.len();
+    match key.code {
+        KeyCode::Enter => {
+            let Some(entry) = found.into_iter().nth(picker.choice) else {
+                model.overlay = Overlay::Picker(picker);
+                return Vec::new();
+            };
+            return chosen(model, picker.kind, entry.id);
+        }
+        KeyCode::Down | KeyCode::Tab => picker.choice = (picker.choice + 1) % n.max(1),
+        KeyCode::Up | KeyCode::BackTab => picker.choice = (picker.choice + n.saturating_sub(1)) % n.max(1),
+        KeyCode::PageDown => picker.choice = (picker.choice + 8).min(n.saturating_sub(1)),
+        KeyCode::PageUp => picker.choice = picker.choice.saturating_sub(8),
+        _ => {
+            edit(&mut picker.filter, key);
+            picker.choice = 0;
+        }
+    }
+    model.overlay = Overlay::Picker(picker);
+    Vec::new()
+}
+
+fn chosen(model: &mut Model, kind: PickerKind, id: String) -> Vec<Effect> {
+    match kind {
+        PickerKind::Method => crate::method::find(&id).map(|m| tune::use_method(model, m)).unwrap_or_default(),
+        PickerKind::Repair => tune::set_repair(model, &id).unwrap_or_default(),
+        PickerKind::Channel => {
+            let plan = model.session.plans.iter().position(|p| p.channel == id);
+            plan.map(|plan| show(model, plan)).unwrap_or_default()
+        }
+        PickerKind::Rate => {
+            let mut after = model.plan().setup.clone();
+            after.rate = Some(id);
+            set_up(model, after)
+        }
+    }
+}
+
+fn type_in(model: &mut Model, mut prompt: Prompt, key: KeyEvent) -> Vec<Effect> {
+    match key.code {
+        KeyCode::Enter => {
+            let text = prompt.input.value().to_owned();
+            let done = match prompt.kind {
+                PromptKind::Command => command::run(model, &text),
+                PromptKind::Jump => command::jump(model, &text).map(|()| Vec::new()),
+                PromptKind::Value => tune::set_value(model, &text),
+                PromptKind::Note => Ok(review::set_note(model, &text)),
+            };
+            match done {
+                Ok(effects) => return effects,
+                Err(error) => prompt.error = Some(error.replace("\n  ", "; ")),
+            }
+        }
+        KeyCode::Tab if prompt.kind == PromptKind::Command => {
+            if let Some(completed) = command::complete(model, prompt.input.value()) {
+                prompt.input = completed.into();
+            }
+        }
+        KeyCode::Backspace if prompt.input.value().is_empty() && prompt.kind == PromptKind::Command => {
+            return Vec::new();
+        }
+        _ => {
+            edit(&mut prompt.input, key);
+            prompt.error = None;
+        }
+    }
+    model.overlay = Overlay::Prompt(prompt);
+    Vec::new()
+}
+
+fn confirm(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
+    match key.code {
+        KeyCode::Char('w' | 's') => files::save(model, None, false, true),
+        KeyCode::Char('d') => vec![Effect::Quit],
+        _ => {
+            model.overlay = Overlay::ConfirmQuit;
+            Vec::new()
+        }
+    }
+}
+
+/// The editing keys of a line, as shells have them.
+fn edit(input: &mut Input, key: KeyEvent) {
+    let request = match (key.code, control(key)) {
+        (KeyCode::Char('a'), true) | (KeyCode::Home, _) => InputRequest::GoToStart,
+        (KeyCode::Char('e'), true) | (KeyCode::End, _) => InputRequest::GoToEnd,
+        (KeyCode::Char('k'), true) => InputRequest::DeleteTillEnd,
+        (KeyCode::Char('u'), true) => InputRequest::DeleteLine,
+        (KeyCode::Char('w'), true) => InputRequest::DeletePrevWord,
+        (KeyCode::Char('h'), true) | (KeyCode::Backspace, _) => InputRequest::DeletePrevChar,
+        (KeyCode::Delete, _) => InputRequest::DeleteNextChar,
+        (KeyCode::Left, _) => InputRequest::GoToPrevChar,
+        (KeyCode::Right, _) => InputRequest::GoToNextChar,
+        (KeyCode::Char(c), false) => InputRequest::InsertChar(c),
+        _ => return,
+    };
+    input.handle(request);
+}

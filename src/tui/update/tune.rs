@@ -1,0 +1,185 @@
+//! Turning the knobs: method, parameters, repair.
+
+use super::super::message::Effect;
+use super::super::model::{Knob, Model, PromptKind, Tone};
+use super::{list_of, picker, prompt, set_up};
+use crate::method::{METHODS, Method};
+use crate::param::{Settings, Value};
+use crate::session::{Preset, Setup};
+
+/// The single knob by which two setups differ, with its values; none when they differ in more, or in the method.
+pub(super) fn knob_between(before: &Setup, after: &Setup) -> Option<(&'static str, String, String)> {
+    if before.method.about().id != after.method.about().id || before.rate != after.rate {
+        return None;
+    }
+    let of = |a: &Settings, b: &Settings, repair: bool| {
+        let name = move |key: &'static str| if repair && key == "method" { "repair" } else { key };
+        let pairs = a.iter().zip(b.iter()).filter(|((_, x), (_, y))| x != y);
+        pairs.map(move |((p, x), (_, y))| (name(p.key), x.to_string(), y.to_string())).collect::<Vec<_>>()
+    };
+    let mut all = of(&before.settings, &after.settings, false);
+    all.extend(of(&before.repair, &after.repair, true));
+    if all.len() == 1 { all.pop() } else { None }
+}
+
+/// The value of a knob, as text.
+pub(in crate::tui) fn value_text(setup: &Setup, knob: Knob) -> String {
+    match knob {
+        Knob::Method => setup.method.about().id.to_owned(),
+        Knob::Rate => setup.rate.clone().unwrap_or_else(|| "(none)".into()),
+        Knob::Detection(p) => setup.settings.get(p.key).map(|v| v.to_string()).unwrap_or_default(),
+        Knob::Repair(p) => setup.repair.get(p.key).map(|v| v.to_string()).unwrap_or_default(),
+    }
+}
+
+fn value(setup: &Setup, knob: Knob) -> Option<Value> {
+    match knob {
+        Knob::Detection(p) => setup.settings.get(p.key),
+        Knob::Repair(p) => setup.repair.get(p.key),
+        Knob::Method | Knob::Rate => None,
+    }
+}
+
+fn with_value(setup: &Setup, knob: Knob, value: Value) -> Setup {
+    let mut after = setup.clone();
+    // The value comes from the parameter itself, so that it is always accepted.
+    let _ = match knob {
+        Knob::Detection(p) => after.settings.set(p.key, p.key, value),
+        Knob::Repair(p) => after.repair.set(p.key, p.key, value),
+        Knob::Method | Knob::Rate => Ok(()),
+    };
+    after
+}
+
+pub(super) fn step(model: &mut Model, steps: i64) -> Vec<Effect> {
+    let knob = model.knob();
+    let setup = model.plan().setup.clone();
+    let forward = steps > 0;
+    match knob {
+        Knob::Method => {
+            let at = METHODS.iter().position(|m| m.about().id == setup.method.about().id).unwrap_or(0);
+            let next = if forward { at + 1 } else { at + METHODS.len() - 1 } % METHODS.len();
+            use_method(model, METHODS[next])
+        }
+        Knob::Rate => picker(model, super::PickerKind::Rate),
+        Knob::Detection(param) | Knob::Repair(param) => {
+            let Some(now) = value(&setup, knob) else { return Vec::new() };
+            let next = param.step(now, steps);
+            if next == now {
+                model.say(Tone::Warning, format!("{} ends at {now} ({})", param.key, param.range()));
+                return Vec::new();
+            }
+            let effects = set_up(model, with_value(&setup, knob, next));
+            model.say(Tone::Done, format!("{} {now} → {next} · u undo", knob.name()));
+            effects
+        }
+    }
+}
+
+pub(super) fn choose(model: &mut Model, by: isize) -> Vec<Effect> {
+    let n = model.knobs().len();
+    let at = model.state().knob.min(n.saturating_sub(1));
+    model.state_mut().knob = (at + n).saturating_add_signed(by) % n.max(1);
+    if model.focus != super::Panel::Parameters {
+        let knob = model.knob();
+        let text = format!("{} {} · , . step", knob.name(), value_text(&model.plan().setup, knob));
+        model.say(Tone::Done, text);
+    }
+    Vec::new()
+}
+
+pub(super) fn type_value(model: &mut Model) -> Vec<Effect> {
+    let knob = model.knob();
+    match list_of(knob) {
+        Some(kind) => picker(model, kind),
+        None => prompt(model, PromptKind::Value, &value_text(&model.plan().setup, knob)),
+    }
+}
+
+/// Sets the active knob from typed text.
+pub(super) fn set_value(model: &mut Model, text: &str) -> Result<Vec<Effect>, String> {
+    let knob = model.knob();
+    match knob {
+        Knob::Detection(p) | Knob::Repair(p) => {
+            let value = p.parse(text).map_err(|e| e.to_string())?;
+            let after = with_value(&model.plan().setup, knob, value);
+            Ok(set_up(model, after))
+        }
+        Knob::Method | Knob::Rate => Ok(Vec::new()),
+    }
+}
+
+/// Sets any parameter of the method or of repair by its key, and makes it the active one.
+pub(super) fn set_key(model: &mut Model, key: &str, text: &str) -> Result<Vec<Effect>, String> {
+    let mut after = model.plan().setup.clone();
+    after.set_text(key, text).map_err(|e| e.to_string())?;
+    let effects = set_up(model, after);
+    if let Some(at) = model.knobs().iter().position(|k| k.name() == key) {
+        model.state_mut().knob = at;
+    }
+    Ok(effects)
+}
+
+pub(super) fn to_default(model: &mut Model) -> Vec<Effect> {
+    let knob = model.knob();
+    match knob {
+        Knob::Detection(p) | Knob::Repair(p) => {
+            let after = with_value(&model.plan().setup, knob, p.default);
+            let effects = set_up(model, after);
+            model.say(Tone::Done, format!("{} at its default, {}", knob.name(), p.default));
+            effects
+        }
+        Knob::Method | Knob::Rate => Vec::new(),
+    }
+}
+
+pub(super) fn use_method(model: &mut Model, method: &'static dyn Method) -> Vec<Effect> {
+    let mut after = model.plan().setup.clone();
+    let left = after.method.about().id;
+    let id = method.about().id;
+    if left == id {
+        return Vec::new();
+    }
+    let state = model.state_mut();
+    state.tuned.insert(left, after.settings.clone());
+    // A method that was tuned before comes back as it was left.
+    after.settings = state.tuned.get(id).cloned().unwrap_or_else(|| Settings::defaults(method.about().params));
+    after.method = method;
+    let active = model.knob().name();
+    let effects = set_up(model, after);
+    let knobs = model.knobs();
+    let wanted = |name: &str| knobs.iter().position(|k| k.name() == name);
+    model.state_mut().knob = wanted(active).or_else(|| wanted("k")).or_else(|| wanted("c")).unwrap_or(0);
+    model.say(Tone::Done, format!("{id}: {} · u undo", method.about().name));
+    if method.about().needs_rate && model.plan().setup.rate.is_none() {
+        return picker(model, super::PickerKind::Rate);
+    }
+    effects
+}
+
+pub(super) fn use_preset(model: &mut Model, preset: Preset) -> Vec<Effect> {
+    let mut after = model.plan().setup.clone();
+    after.settings = preset.settings(after.method);
+    let words = match preset {
+        Preset::Default => "every parameter at its default",
+        Preset::Paper => "every parameter as the paper has it",
+    };
+    let effects = set_up(model, after);
+    model.say(Tone::Done, format!("{words} · u undo"));
+    effects
+}
+
+pub(super) fn other_preset(model: &mut Model) -> Vec<Effect> {
+    let setup = &model.plan().setup;
+    let at_paper = setup.settings == Preset::Paper.settings(setup.method);
+    use_preset(model, if at_paper { Preset::Default } else { Preset::Paper })
+}
+
+/// Chooses another repair.
+pub(super) fn set_repair(model: &mut Model, id: &str) -> Result<Vec<Effect>, String> {
+    let mut after = model.plan().setup.clone();
+    after.repair.set_text("repair", crate::repair::METHOD.key, id).map_err(|e| e.to_string())?;
+    let effects = set_up(model, after);
+    model.say(Tone::Done, format!("repair {id} · u undo"));
+    Ok(effects)
+}

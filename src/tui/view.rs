@@ -1,0 +1,214 @@
+//! Drawing: the model in, cells out. Nothing is changed here.
+
+use ratatui::Frame;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Widget;
+
+use super::action::Panel;
+use super::layout::{self, LEAST};
+use super::model::{Model, Overlay, Tone};
+
+mod card;
+mod footer;
+mod overlay;
+mod parameters;
+mod plots;
+mod queue;
+mod title;
+
+/// Draws the workbench.
+pub fn view(model: &Model, frame: &mut Frame<'_>) {
+    let area = frame.area();
+    draw(model, area, frame.buffer_mut());
+}
+
+/// Draws the workbench into a buffer.
+pub fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
+    let Some(areas) = layout::arrange(model) else {
+        too_small(model, area, buffer);
+        return;
+    };
+    title::draw(model, areas.title, buffer);
+    let plots = plots::Plots::new(model);
+    if let Some(area) = areas.overview {
+        plots.overview(area, buffer);
+    }
+    if let Some(area) = areas.trace {
+        plots.trace(area, buffer);
+    }
+    if let Some(area) = areas.residual {
+        plots.residual(area, buffer);
+    }
+    if let Some(area) = areas.card {
+        card::draw(model, area, buffer);
+    }
+    if let Some(area) = areas.knobs {
+        parameters::one_line(model, area, buffer);
+    }
+    if let Some(area) = areas.parameters {
+        parameters::draw(model, area, buffer);
+    }
+    if let Some(area) = areas.queue {
+        queue::draw(model, area, buffer);
+    }
+    toast(model, areas.toast, buffer);
+    footer::draw(model, areas.footer, buffer);
+    if !matches!(model.overlay, Overlay::None) {
+        overlay::draw(model, area, buffer);
+    }
+}
+
+fn too_small(model: &Model, area: Rect, buffer: &mut Buffer) {
+    let (width, height) = model.size;
+    let text = format!("terminal too small ({width}x{height}), need {}x{}", LEAST.0, LEAST.1);
+    for (i, words) in [text.as_str(), "q quits"].into_iter().enumerate() {
+        let row = Rect { y: area.y + u16::try_from(i).unwrap_or(0), height: 1, ..area };
+        if row.y < area.bottom() {
+            Line::styled(words, model.theme.warning).render(row, buffer);
+        }
+    }
+}
+
+/// What the program says, or the job it is about.
+fn toast(model: &Model, area: Rect, buffer: &mut Buffer) {
+    let theme = &model.theme;
+    let line = if let Some(toast) = &model.toast {
+        let style = match toast.tone {
+            Tone::Done => theme.ok,
+            Tone::Warning => theme.warning,
+            Tone::Error => theme.error,
+        };
+        Line::styled(format!(" {}", crate::track::printable(&toast.text)), style)
+    } else if let Some(error) = &model.state().error {
+        Line::styled(format!(" {}", crate::track::printable(error)), theme.error)
+    } else {
+        Line::default()
+    };
+    clear(area, buffer);
+    line.render(area, buffer);
+}
+
+/// A heading: a rule with the name of a panel, its digit, and a few words.
+fn heading(model: &Model, panel: Panel, words: &[Span<'_>], area: Rect, buffer: &mut Buffer) -> Rect {
+    let theme = &model.theme;
+    let focused = model.focus == panel;
+    let style = if focused { theme.focus } else { theme.title };
+    let mut spans = vec![
+        Span::styled(format!("{} ", rule_glyph(model)), theme.dim),
+        Span::styled(format!("{} {}", panel.digit(), panel.name()), style),
+        Span::raw(" "),
+    ];
+    spans.extend(words.iter().cloned());
+    rule(model, spans, area, buffer);
+    Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
+}
+
+/// A row that starts with `spans` and goes on as a rule.
+fn rule(model: &Model, spans: Vec<Span<'_>>, area: Rect, buffer: &mut Buffer) {
+    let area = Rect { height: area.height.min(1), ..area };
+    if area.height == 0 {
+        return;
+    }
+    let glyph = rule_glyph(model);
+    for x in area.left()..area.right() {
+        buffer[(x, area.y)].set_char(glyph).set_style(reset(model.theme.dim));
+    }
+    let mut line = Line::from(spans);
+    line.spans.push(Span::raw(" "));
+    let width = u16::try_from(line.width()).unwrap_or(u16::MAX).min(area.width);
+    for x in area.left()..area.left() + width {
+        buffer[(x, area.y)].reset();
+    }
+    line.render(area, buffer);
+}
+
+fn rule_glyph(model: &Model) -> char {
+    if model.glyphs == super::plot::Glyphs::Unicode { '─' } else { '-' }
+}
+
+/// The style with nothing left of what a cell had before.
+fn reset(style: Style) -> Style {
+    Style::reset().patch(style)
+}
+
+/// Blanks an area, the left half of wide characters that reach into it too.
+fn clear(area: Rect, buffer: &mut Buffer) {
+    ratatui::widgets::Clear.render(area, buffer);
+    if area.x == 0 {
+        return;
+    }
+    for y in area.top()..area.bottom() {
+        let cell = &mut buffer[(area.x - 1, y)];
+        if unicode_width::UnicodeWidthStr::width(cell.symbol()) > 1 {
+            cell.set_symbol(" ");
+        }
+    }
+}
+
+/// Text cut to a width, with an ellipsis where something is left out.
+fn fit(text: &str, width: usize) -> String {
+    use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
+    if text.width() <= width {
+        return text.to_owned();
+    }
+    let mut out = String::new();
+    let mut used = 0;
+    for c in text.chars() {
+        let w = c.width().unwrap_or(0);
+        if used + w + 1 > width {
+            break;
+        }
+        out.push(c);
+        used += w;
+    }
+    if width > 0 {
+        out.push('…');
+    }
+    out
+}
+
+/// A whole number with thousands set apart.
+fn thousands(n: usize) -> String {
+    let digits = n.to_string();
+    let mut out = String::new();
+    for (i, c) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(c);
+    }
+    out
+}
+
+/// A value on the screen: about seven significant digits.
+fn short(x: f64) -> String {
+    if !x.is_finite() {
+        return "-".into();
+    }
+    let size = x.abs();
+    if size != 0.0 && !(1e-4..1e10).contains(&size) {
+        return format!("{x:.5e}");
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to small digits")]
+    let digits = if size < 1.0 { 6 } else { (6.0 - size.log10().floor()).clamp(0.0, 6.0) as usize };
+    let text = format!("{x:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_texts_are_cut_to_what_people_read() {
+        assert_eq!(["1,234,567", "999", "0"], [1_234_567, 999, 0].map(thousands).each_ref().map(String::as_str));
+        assert_eq!(short(-3.870_912_345), "-3.870912");
+        assert_eq!(short(30975.0), "30975");
+        assert_eq!(short(4.94e13), "4.94000e13");
+        assert_eq!(fit("abcdef", 4), "abc…");
+        assert_eq!(fit("ab", 4), "ab");
+    }
+}

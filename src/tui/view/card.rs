@@ -1,0 +1,176 @@
+//! The card: what there is to know about the sample under the cursor.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Widget;
+
+use super::super::action::Panel;
+use super::super::drawn::{Drawn, state};
+use super::super::model::Model;
+use super::super::plot::FlagState;
+use super::super::update::mark_at;
+use super::{clear, heading, short};
+use crate::method::{Direction, Verdict};
+use crate::session::Mark;
+use crate::track::{Series, printable};
+
+pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
+    clear(area, buffer);
+    let series = model.series();
+    let cursor = model.state().cursor;
+    let mark = mark_at(model, cursor);
+    let words = heading_words(model, mark.as_ref());
+    let body = heading(model, Panel::Card, &words, area, buffer);
+    if cursor >= series.len() {
+        Line::styled(" no sample has both a time and a value", model.theme.dim).render(body, buffer);
+        return;
+    }
+    let lines = [
+        measured(model, &series, cursor),
+        judged(model, &series, cursor, mark.as_ref()),
+        neighbours(model, &series, cursor),
+        remarks(model, &series, cursor, mark.as_ref()),
+    ];
+    // Where there is room for two lines, the neighbours go first, then the remarks.
+    for (i, line) in lines.into_iter().enumerate() {
+        let i = u16::try_from(i).unwrap_or(0);
+        if i < body.height {
+            line.render(Rect { y: body.y + i, height: 1, ..body }, buffer);
+        }
+    }
+}
+
+/// Which flag of how many, and its state.
+fn heading_words(model: &Model, mark: Option<&Mark>) -> Vec<Span<'static>> {
+    let theme = &model.theme;
+    let state_of = mark.and_then(state);
+    let queue = &model.state().queue;
+    let at = mark.and_then(|m| queue.iter().position(|p| *p == m.position));
+    let place = match at {
+        Some(at) => format!("{} of {}  ", at + 1, queue.len()),
+        None => format!("none here, {} in all  ", queue.len()),
+    };
+    let mut spans = vec![Span::styled(place, theme.dim)];
+    if let Some(state) = state_of {
+        let word = format!("{} {}  ", model.glyphs.flag(state), state_word(state));
+        spans.push(Span::styled(word, theme.flag(state)));
+    }
+    if mark.is_some_and(Mark::conflict) {
+        spans.push(Span::styled("! the method now says otherwise  ", theme.warning));
+    }
+    spans
+}
+
+pub(super) fn state_word(state: FlagState) -> &'static str {
+    match state {
+        FlagState::Unreviewed => "undecided",
+        FlagState::Accepted => "accepted",
+        FlagState::Rejected => "rejected",
+        FlagState::ByHand => "by hand",
+        FlagState::Suspect => "suspect",
+    }
+}
+
+/// Row, time, raw value, expected value, tolerance, ratio.
+fn measured(model: &Model, series: &Series<'_>, i: usize) -> Line<'static> {
+    let theme = &model.theme;
+    let mut spans = vec![
+        Span::styled(format!(" #{} ", series.row(i) + 1), theme.title),
+        Span::styled(format!(" {} ", model.track.time.full_label(series.t[i])), theme.text),
+    ];
+    let mut item = |name: &str, value: String| {
+        spans.push(Span::styled(format!("  {name} "), theme.dim));
+        spans.push(Span::styled(value, theme.text));
+    };
+    item("raw", short(series.y[i]));
+    if let Some(drawn) = &model.state().drawn {
+        let judged = &drawn.outcome.detection.judged;
+        match judged.expected.get(i) {
+            Some(p) if p.is_finite() => item("expected", short(*p)),
+            _ => item("expected", "none".into()),
+        }
+        if let Some(h) = judged.tolerance.get(i).filter(|h| **h > 0.0) {
+            item("±", short(*h));
+        }
+        if let Some(ratio) = drawn.ratio(series, i) {
+            item("ratio", format!("{ratio:+.2}"));
+        }
+    }
+    Line::from(spans)
+}
+
+/// What method and analyst say, and what will be written.
+fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> Line<'static> {
+    let theme = &model.theme;
+    let Some(drawn) = &model.state().drawn else { return Line::default() };
+    let judged = &drawn.outcome.detection.judged;
+    let verdict = judged.verdict.get(i).copied().unwrap_or(Verdict::Missing);
+    let mut text = format!("  {} says {}", drawn.outcome.detection.setup.method.about().id, verdict.word());
+    if let Some(d) = judged.directions.get(i) {
+        for (name, direction) in [("forward", d.forward), ("backward", d.backward)] {
+            if let Some(direction) = direction {
+                text.push_str(&format!("  {name} {}", Direction::word(direction)));
+            }
+        }
+    }
+    if let Some(run) = drawn.outcome.run(i) {
+        match run.length {
+            1 => text.push_str("  isolated"),
+            n => text.push_str(&format!("  {} of a patch of {n}", i - run.start + 1)),
+        }
+    }
+    let outcome = written(drawn, series, i, mark);
+    Line::from(vec![Span::styled(format!(" → {outcome}"), theme.text), Span::styled(text, theme.dim)])
+}
+
+/// What the cleaned file will have.
+fn written(drawn: &Drawn, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> String {
+    let wild = mark.map_or(Verdict::Normal, Mark::effective) == Verdict::Outlier;
+    match drawn.outcome.fix(i) {
+        Some(fix) if wild && fix.is_finite() => format!("repaired to {}", short(fix)),
+        Some(_) if wild => "removed, the cell stays empty".into(),
+        _ if wild => "…".into(),
+        _ => format!("kept as {}", short(series.y[i])),
+    }
+}
+
+/// The values around.
+fn neighbours(model: &Model, series: &Series<'_>, i: usize) -> Line<'static> {
+    let theme = &model.theme;
+    let mut spans = vec![Span::styled(" neighbours", theme.dim)];
+    for k in i.saturating_sub(3)..(i + 4).min(series.len()) {
+        if k > 0 && k > i.saturating_sub(3) && series.lost_before(k) > 0 {
+            spans.push(Span::styled(format!("  ({} lost)", series.lost_before(k)), theme.dim));
+        }
+        let value = short(series.y[k]);
+        if k == i {
+            spans.push(Span::styled(format!("  [{value}]"), theme.title));
+        } else {
+            let style = mark_at(model, k).as_ref().and_then(state).map_or(theme.text, |s| theme.flag(s));
+            spans.push(Span::styled(format!("  {value}"), style));
+        }
+    }
+    Line::from(spans)
+}
+
+/// The note, and where a model was started again.
+fn remarks(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> Line<'static> {
+    let theme = &model.theme;
+    let mut spans = Vec::new();
+    if mark.is_some_and(|m| m.ruling.is_some()) {
+        let row = u32::try_from(series.row(i)).unwrap_or(u32::MAX);
+        let note = model.plan().decisions.get(row).map(|d| d.note.clone()).unwrap_or_default();
+        let note =
+            if note.is_empty() { "no note (c writes one)".to_owned() } else { format!("note: {}", printable(&note)) };
+        spans.push(Span::styled(format!(" decided by the analyst  {note}"), theme.dim));
+    }
+    if let Some(drawn) = &model.state().drawn {
+        let restarts = &drawn.outcome.detection.judged.restarts;
+        if restarts.iter().any(|r| r.at == i) {
+            let text = " the model was lost and started again here: a change of the trajectory, or a long patch";
+            spans.push(Span::styled(text, theme.warning));
+        }
+    }
+    Line::from(spans)
+}

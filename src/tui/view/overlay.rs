@@ -1,0 +1,197 @@
+//! What lies over the panels: help, lists, prompts, the question before quitting.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Borders, Widget};
+use tui_input::Input;
+
+use super::super::keys::{Context, KEYMAP, shown};
+use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
+use super::super::plot::Glyphs;
+use super::super::update::{COMMANDS, narrowed, value_text};
+use super::{clear, fit};
+use crate::track::printable;
+
+pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
+    match &model.overlay {
+        Overlay::None => {}
+        Overlay::Help(filter, from) => help(model, filter, *from, area, buffer),
+        Overlay::Picker(picker) => list(model, picker, area, buffer),
+        Overlay::Prompt(prompt) => line(model, prompt, area, buffer),
+        Overlay::ConfirmQuit => confirm(model, area, buffer),
+    }
+}
+
+/// A box of at most this size in the middle of the screen, the footer left free; gives its inside.
+fn popup(model: &Model, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
+    let room = Rect { height: area.height.saturating_sub(1), ..area };
+    let (width, height) = (size.0.min(room.width), size.1.min(room.height));
+    let place = Rect { x: room.x + (room.width - width) / 2, y: room.y + (room.height - height) / 2, width, height };
+    clear(place, buffer);
+    let block = Block::new()
+        .borders(Borders::ALL)
+        .border_style(model.theme.dim)
+        .title(Span::styled(format!(" {title} "), model.theme.focus));
+    let block = if model.glyphs == Glyphs::Unicode { block } else { block.border_set(PLAIN) };
+    let inside = block.inner(place);
+    block.render(place, buffer);
+    Rect { x: inside.x + 1, width: inside.width.saturating_sub(2), ..inside }
+}
+
+const PLAIN: ratatui::symbols::border::Set<'static> = ratatui::symbols::border::Set {
+    top_left: "+",
+    top_right: "+",
+    bottom_left: "+",
+    bottom_right: "+",
+    vertical_left: "|",
+    vertical_right: "|",
+    horizontal_top: "-",
+    horizontal_bottom: "-",
+};
+
+fn rows(lines: Vec<Line<'_>>, from: usize, inside: Rect, buffer: &mut Buffer) {
+    for (row, line) in lines.into_iter().skip(from).take(usize::from(inside.height)).enumerate() {
+        let row = u16::try_from(row).unwrap_or(u16::MAX);
+        line.render(Rect { y: inside.y + row, height: 1, ..inside }, buffer);
+    }
+}
+
+/// A line of text with its cursor.
+fn typed(model: &Model, before: &str, input: &Input) -> Line<'static> {
+    let text: String = input.value().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+    let at = input.cursor();
+    let head: String = text.chars().take(at).collect();
+    let under = text.chars().nth(at).unwrap_or(' ');
+    let tail: String = text.chars().skip(at + 1).collect();
+    Line::from(vec![
+        Span::styled(before.to_owned(), model.theme.key),
+        Span::raw(head),
+        Span::styled(under.to_string(), Style::new().patch(model.theme.cursor)),
+        Span::raw(tail),
+    ])
+}
+
+/// The lines of the help that hold what was typed: keys by where they work, then commands.
+fn help_lines(model: &Model, filter: &str) -> Vec<Line<'static>> {
+    let theme = &model.theme;
+    let wanted = filter.to_lowercase();
+    let mut lines = Vec::new();
+    let mut group = |heading: &str, entries: Vec<(String, String)>| {
+        let fits = |(keys, help): &(String, String)| {
+            wanted.is_empty() || format!("{heading} {keys} {help}").to_lowercase().contains(&wanted)
+        };
+        let entries: Vec<_> = entries.into_iter().filter(fits).collect();
+        if entries.is_empty() {
+            return;
+        }
+        if !lines.is_empty() {
+            lines.push(Line::default());
+        }
+        lines.push(Line::styled(heading.to_owned(), theme.title));
+        for (keys, help) in entries {
+            lines.push(Line::from(vec![
+                Span::styled(format!("  {keys:18}"), theme.key),
+                Span::styled(format!(" {help}"), theme.text),
+            ]));
+        }
+    };
+    for context in Context::ALL {
+        let of = KEYMAP.iter().filter(|b| b.context == context);
+        let keys = |b: &super::super::keys::Binding| b.keys.iter().map(|k| shown(k)).collect::<Vec<_>>().join(" ");
+        group(context.heading(), of.map(|b| (keys(b), b.help.to_owned())).collect());
+    }
+    let command =
+        |c: &super::super::update::Command| (format!(":{} {}", c.name.replace('|', " :"), c.takes), c.help.to_owned());
+    group("commands", COMMANDS.iter().map(command).collect());
+    lines
+}
+
+fn help(model: &Model, filter: &Input, from: usize, area: Rect, buffer: &mut Buffer) {
+    let inside = popup(model, "keys and commands", (78, area.height), area, buffer);
+    let head = Rect { height: inside.height.min(1), ..inside };
+    typed(model, "filter: ", filter).render(head, buffer);
+    let body = Rect { y: inside.y + head.height, height: inside.height - head.height, ..inside };
+    let lines = help_lines(model, filter.value());
+    let last = lines.len().saturating_sub(usize::from(body.height));
+    rows(lines, from.min(last), body, buffer);
+}
+
+fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) {
+    let theme = &model.theme;
+    let title = match picker.kind {
+        PickerKind::Method => "method",
+        PickerKind::Repair => "repair",
+        PickerKind::Channel => "channel",
+        PickerKind::Rate => "channel that measures the rate",
+    };
+    let found = narrowed(model, picker);
+    let groups = found.windows(2).filter(|w| w[0].group != w[1].group).count();
+    let wanted = u16::try_from(found.len() + groups + 5).unwrap_or(u16::MAX);
+    let inside = popup(model, title, (76, wanted.max(8)), area, buffer);
+    typed(model, "filter: ", &picker.filter).render(Rect { height: inside.height.min(1), ..inside }, buffer);
+    let body = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1), ..inside };
+    let mut lines = Vec::new();
+    let (mut group, mut choice_row) = ("", 0);
+    for (i, entry) in found.iter().enumerate() {
+        if entry.group != group {
+            group = entry.group;
+            lines.push(Line::styled(group.to_owned(), theme.dim));
+        }
+        let chosen = i == picker.choice;
+        if chosen {
+            choice_row = lines.len();
+        }
+        let mark = if entry.current { '*' } else { ' ' };
+        let text = format!("{}{mark} {:20}", if chosen { '>' } else { ' ' }, fit(&printable(&entry.id), 20));
+        let style = if chosen { theme.focus } else { theme.text };
+        lines.push(Line::from(vec![Span::styled(text, style), Span::styled(format!(" {}", entry.help), theme.dim)]));
+    }
+    if found.is_empty() {
+        lines.push(Line::styled("nothing fits", theme.dim));
+    }
+    let from = (choice_row + 1).saturating_sub(usize::from(body.height));
+    rows(lines, from, body, buffer);
+}
+
+/// A prompt takes the line on which the program speaks, with what is wrong above it.
+fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
+    if area.height < 3 {
+        return;
+    }
+    let before = match prompt.kind {
+        PromptKind::Command => ":".to_owned(),
+        PromptKind::Jump => "to time, #row or +seconds: ".to_owned(),
+        PromptKind::Value => {
+            let knob = model.knob();
+            format!("{} (now {}): ", knob.name(), value_text(&model.plan().setup, knob))
+        }
+        PromptKind::Note => "note: ".to_owned(),
+    };
+    let row = Rect { y: area.bottom() - 2, height: 1, ..area };
+    clear(row, buffer);
+    typed(model, &before, &prompt.input).render(row, buffer);
+    if let Some(error) = &prompt.error {
+        let row = Rect { y: area.bottom() - 3, height: 1, ..area };
+        clear(row, buffer);
+        Line::styled(format!(" {}", printable(error)), model.theme.error).render(row, buffer);
+    }
+}
+
+fn confirm(model: &Model, area: Rect, buffer: &mut Buffer) {
+    let inside = popup(model, "not saved", (64, 7), area, buffer);
+    let path = model.file.clone().unwrap_or_else(|| super::super::update::default_session(&model.track.source));
+    let key = |k: &str, words: String| {
+        Line::from(vec![Span::styled(format!("{k:5}"), model.theme.key), Span::styled(words, model.theme.text)])
+    };
+    let changes = model.history.len();
+    let lines = vec![
+        Line::styled(format!("The session has changes that are not saved ({changes} to undo)."), model.theme.warning),
+        Line::default(),
+        key("w", format!("save to {} and quit", path.display())),
+        key("d", "drop them and quit".into()),
+        key("Esc", "stay".into()),
+    ];
+    rows(lines, 0, inside, buffer);
+}

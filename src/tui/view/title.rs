@@ -1,0 +1,78 @@
+//! The first line: record, channel, size, and how many flags are in which state.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Widget;
+
+use super::super::model::Model;
+use super::super::plot::FlagState;
+use super::{clear, fit, thousands};
+use crate::score::Score;
+use crate::track::printable;
+
+pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
+    clear(area, buffer);
+    let right = right_side(model);
+    let right_width = u16::try_from(right.width()).unwrap_or(u16::MAX).min(area.width);
+    let place = Rect { x: area.right() - right_width, width: right_width, ..area };
+    right.render(place, buffer);
+    let left = Rect { width: area.width - right_width, ..area };
+    left_side(model, usize::from(left.width)).render(left, buffer);
+}
+
+fn left_side(model: &Model, width: usize) -> Line<'static> {
+    let theme = &model.theme;
+    let name = printable(&model.track.source.name());
+    let channel = printable(&model.plan().channel);
+    let (at, of) = (model.shown + 1, model.channels.len());
+    let place = if of > 1 { format!(" ({at}/{of})") } else { String::new() };
+    let unit = printable(&model.channel().unit);
+    let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
+    let size = format!(" · {} samples", thousands(model.series().len()));
+    let fixed = channel.chars().count() + place.len() + 5;
+    let name = fit(&name, width.saturating_sub(fixed).clamp(6, 40));
+    let mut spans = vec![
+        Span::styled(format!(" {name}"), theme.text),
+        Span::styled(" · ", theme.dim),
+        Span::styled(format!("{channel}{unit}"), theme.title),
+        Span::styled(place, theme.dim),
+    ];
+    let used: usize = spans.iter().map(Span::width).sum();
+    if used + size.chars().count() < width {
+        spans.push(Span::styled(size, theme.dim));
+    }
+    Line::from(spans)
+}
+
+fn right_side(model: &Model) -> Line<'static> {
+    let (theme, glyphs, state) = (&model.theme, model.glyphs, model.state());
+    let mut spans = Vec::new();
+    match &state.drawn {
+        None => spans.push(Span::styled("computing … ", theme.warning)),
+        Some(drawn) => {
+            let counts = drawn.outcome.counts;
+            if let Some(truth) = &model.track.truth {
+                let score = Score::of(&drawn.outcome, &model.series(), truth);
+                let text = format!("missed {} false {}  ", score.missed, score.false_alarms);
+                spans.push(Span::styled(text, theme.dim));
+            }
+            spans.push(Span::styled(format!("{} flagged", thousands(counts.flagged)), theme.title));
+            let by_state = state.flags.counts();
+            for flag in FlagState::BY_URGENCY {
+                let n = by_state[flag.index()];
+                if n > 0 && !(flag == FlagState::Unreviewed && n == counts.flagged) {
+                    spans.push(Span::styled(format!(" {}{}", glyphs.flag(flag), thousands(n)), theme.flag(flag)));
+                }
+            }
+            if counts.conflicts > 0 {
+                spans.push(Span::styled(format!(" !{}", counts.conflicts), theme.warning));
+            }
+            if state.stale {
+                spans.push(Span::styled(" …", theme.warning));
+            }
+        }
+    }
+    spans.push(Span::styled(if model.unsaved() { " [+] " } else { " " }, theme.warning));
+    Line::from(spans)
+}
