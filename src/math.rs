@@ -5,7 +5,6 @@ pub mod extrapolate;
 pub mod extremes;
 pub mod gains;
 pub mod huber;
-pub mod infill;
 pub mod integral;
 pub mod leave_one_out;
 pub mod line;

@@ -36,7 +36,8 @@ impl LineOfFive {
             xx += d * d;
             xv += d * v[i];
         }
-        (level + (mean - middle * (xv / xx)), 0.2 + middle * middle / xx)
+        let per_xx = 1.0 / xx;
+        (level + (mean - middle * (xv * per_xx)), 0.2 + middle * middle * per_xx)
     }
 }
 

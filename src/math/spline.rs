@@ -45,7 +45,8 @@ impl Natural {
         let h = self.t[i] - self.t[i - 1];
         let (a, b) = ((self.t[i] - t) / h, (t - self.t[i - 1]) / h);
         let curve = (a * a * a - a) * self.bend[i - 1] + (b * b * b - b) * self.bend[i];
-        a * self.y[i - 1] + b * self.y[i] + curve * h * h / 6.0
+        // Taken from one end, so that an offset of the values costs no digits.
+        self.y[i - 1] + b * (self.y[i] - self.y[i - 1]) + curve * h * h / 6.0
     }
 }
 

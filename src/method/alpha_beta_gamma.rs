@@ -78,6 +78,8 @@ pub struct Tracker {
     step: f64,
     /// Gains for that sample.
     gains: Gains,
+    /// Deviation of the innovation at these gains, in noise scales: 1 / sqrt(1 - a).
+    deviation: f64,
     /// Steady already.
     steady: bool,
     prediction: Prediction,
@@ -98,6 +100,7 @@ impl Tracker {
             used: 0,
             step: f64::NAN,
             gains: gains::steady(alpha),
+            deviation: f64::NAN,
             steady: false,
             prediction: Prediction { expected: f64::NAN, tolerance: f64::NAN },
         }
@@ -107,10 +110,12 @@ impl Tracker {
     fn coast(&mut self, t: f64) {
         let h = t - self.t;
         let [p, u, s] = self.state;
-        self.state = [p + u * h + 0.5 * s * h * h, u + s * h, s];
+        let half = 0.5 * h * h;
+        self.state = [p + (u * h + s * half), u + s * h, s];
         (self.t, self.step) = (t, h);
         if !self.steady {
             self.gains = gains::at(self.used + 1, self.alpha);
+            self.deviation = 1.0 / (1.0 - self.gains.a).sqrt();
             self.steady = self.gains == gains::steady(self.alpha);
         }
     }
@@ -118,11 +123,12 @@ impl Tracker {
     #[inline]
     fn update(&mut self, y: f64) {
         let r = y - self.state[0];
-        let gain = [self.gains.a, self.gains.b / self.step, self.gains.g / (self.step * self.step)];
+        let per_step = 1.0 / self.step;
+        let gain = [self.gains.a, self.gains.b * per_step, self.gains.g * per_step * per_step];
         for (x, k) in self.state.iter_mut().zip(gain) {
             *x += k * r;
         }
-        self.spread.step(self.step, Some(gain), self.steady);
+        self.spread.step(self.step, Some(gain));
         self.used += 1;
     }
 }
@@ -165,7 +171,7 @@ impl Model for Tracker {
             // The steady gains know nothing of a longer step: the spread they imply has grown over it.
             (1.0 + self.spread.position_after(self.step).max(a / (1.0 - a))).sqrt()
         } else {
-            1.0 / (1.0 - a).sqrt()
+            self.deviation
         };
         self.prediction = Prediction { expected: self.state[0], tolerance: self.k * self.sigma * spread };
     }
@@ -178,7 +184,7 @@ impl Model for Tracker {
     fn answer(&mut self, t: f64, y: f64) -> Answer {
         let Prediction { expected, tolerance } = self.prediction;
         if reaches((y - expected).abs(), tolerance) || self.rate.broken(t, y) {
-            self.spread.step(self.step, None, self.steady);
+            self.spread.step(self.step, None);
             return Answer::Rejects;
         }
         self.update(y);

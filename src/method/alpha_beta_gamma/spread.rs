@@ -5,14 +5,7 @@
 pub(super) struct Spread {
     /// pp, pu, ps, uu, us, ss.
     p: [f64; 6],
-    /// The step for which the covariance stands still under the gains it was last updated with.
-    settled: Option<f64>,
-    last: f64,
 }
-
-/// Steps and covariances that differ by less than this fraction count as the same.
-const SAME: f64 = 1e-9;
-const STILL: f64 = 1e-12;
 
 impl Spread {
     /// That of the exact parabola through three samples, at the last of them; the others stand `x1` and `x2`
@@ -30,7 +23,6 @@ impl Spread {
                 dot(velocity, acceleration),
                 dot(acceleration, acceleration),
             ],
-            ..Self::default()
         }
     }
 
@@ -40,28 +32,14 @@ impl Spread {
         predicted(self.p, h)[0]
     }
 
-    /// A step of `h` seconds to a sample that is taken in with `gain`, or not at all; `steady` when the gain is the
-    /// same from now on. Once steady steps have brought the covariance to rest it is not worked out again.
+    /// A step of `h` seconds to a sample that is taken in with `gain`, or not at all.
     #[inline]
-    pub(super) fn step(&mut self, h: f64, gain: Option<[f64; 3]>, steady: bool) {
-        let same = |other: f64| (h - other).abs() <= SAME * h;
-        if gain.is_some() && self.settled.is_some_and(same) {
+    pub(super) fn step(&mut self, h: f64, gain: Option<[f64; 3]>) {
+        let p = predicted(self.p, h);
+        let Some([a, b, g]) = gain else {
+            self.p = p;
             return;
-        }
-        let before = self.p;
-        self.p = predicted(before, h);
-        if let Some(gain) = gain {
-            self.update(gain);
-        }
-        let still = |(a, b): (&f64, &f64)| (a - b).abs() <= STILL * b.abs();
-        let at_rest = steady && gain.is_some() && same(self.last) && self.p.iter().zip(&before).all(still);
-        self.settled = at_rest.then_some(h);
-        self.last = h;
-    }
-
-    #[inline]
-    fn update(&mut self, [a, b, g]: [f64; 3]) {
-        let p = self.p;
+        };
         // (I - K H) P (I - K H)' + K K', written out for H = (1 0 0).
         let [pp, pu, ps, uu, us, ss] = p;
         let rest = 1.0 - a;
@@ -105,25 +83,8 @@ mod tests {
                 assert!((got / want - 1.0).abs() < 1e-9, "{j}, {ahead}: {got} {want}");
             }
             let g = gains::growing(j);
-            spread.step(h, Some([g.a, g.b / h, g.g / (h * h)]), false);
+            spread.step(h, Some([g.a, g.b / h, g.g / (h * h)]));
             t.push(h * (j - 1) as f64);
-        }
-    }
-
-    #[test]
-    fn a_covariance_at_rest_stays_what_it_would_become() {
-        let (h, g) = (0.1, gains::steady(0.4));
-        let gain = Some([g.a, g.b / h, g.g / (h * h)]);
-        let mut settled = Spread::of_parabola(-2.0 * h, -h);
-        let mut plain = settled.clone();
-        for i in 0..1000 {
-            let gain = if i == 600 { None } else { gain };
-            settled.step(h, gain, true);
-            plain.step(h, gain, false);
-            assert!(i != 500 || settled.settled.is_some());
-            for (a, b) in settled.p.iter().zip(plain.p) {
-                assert!((a / b - 1.0).abs() < 1e-9, "step {i}");
-            }
         }
     }
 }

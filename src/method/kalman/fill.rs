@@ -1,7 +1,7 @@
 //! What a patch is filled with before the filter runs again.
 
-use crate::math::infill::NaturalSpline;
 use crate::math::polyfit::Polynomial;
+use crate::math::spline::Natural;
 
 /// A curve through accepted samples on both sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,7 +35,7 @@ impl Fill {
                 run.iter().map(|&i| fit.at(t[i])).collect()
             }
             Self::Spline => {
-                let spline = NaturalSpline::through(times, values);
+                let spline = Natural::through(&times, &values);
                 run.iter().map(|&i| spline.at(t[i])).collect()
             }
         }

@@ -26,8 +26,9 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         Line::styled(" no sample has both a time and a value", model.theme.dim).render(body, buffer);
         return;
     }
+    let narrow = area.width < 100;
     let lines = [
-        measured(model, &series, cursor),
+        measured(model, &series, cursor, narrow),
         judged(model, &series, cursor, mark.as_ref()),
         neighbours(model, &series, cursor),
         remarks(model, &series, cursor, mark.as_ref()),
@@ -73,11 +74,17 @@ pub(super) fn state_word(state: FlagState) -> &'static str {
 }
 
 /// Row, time, raw value, expected value, tolerance, ratio.
-fn measured(model: &Model, series: &Series<'_>, i: usize) -> Line<'static> {
+fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Line<'static> {
     let theme = &model.theme;
+    let full = model.track.time.full_label(series.t[i]);
+    // On a narrow screen the date has to go: the axis above is of the same day.
+    let time = match (narrow, full.split_once(' ')) {
+        (true, Some((_, rest))) if model.track.time.date(0.0).is_some() => rest.trim_end_matches(" UTC").to_owned(),
+        _ => full,
+    };
     let mut spans = vec![
         Span::styled(format!(" #{} ", series.row(i) + 1), theme.title),
-        Span::styled(format!(" {} ", model.track.time.full_label(series.t[i])), theme.text),
+        Span::styled(format!(" {time} "), theme.text),
     ];
     let mut item = |name: &str, value: String| {
         spans.push(Span::styled(format!("  {name} "), theme.dim));
@@ -87,7 +94,7 @@ fn measured(model: &Model, series: &Series<'_>, i: usize) -> Line<'static> {
     if let Some(drawn) = &model.state().drawn {
         let judged = &drawn.outcome.detection.judged;
         match judged.expected.get(i) {
-            Some(p) if p.is_finite() => item("expected", short(*p)),
+            Some(p) if p.is_finite() => item(if narrow { "exp" } else { "expected" }, short(*p)),
             _ => item("expected", "none".into()),
         }
         if let Some(h) = judged.tolerance.get(i).filter(|h| **h > 0.0) {
@@ -108,10 +115,11 @@ fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> 
     let verdict = judged.verdict.get(i).copied().unwrap_or(Verdict::Missing);
     let mut text = format!("  {} says {}", drawn.outcome.detection.setup.method.about().id, verdict.word());
     if let Some(d) = judged.directions.get(i) {
-        for (name, direction) in [("forward", d.forward), ("backward", d.backward)] {
-            if let Some(direction) = direction {
-                text.push_str(&format!("  {name} {}", Direction::word(direction)));
-            }
+        let both = [("forward", d.forward), ("backward", d.backward)];
+        let words: Vec<String> =
+            both.iter().filter_map(|(name, d)| d.map(|d| format!("{name} {}", Direction::word(d)))).collect();
+        if !words.is_empty() {
+            text.push_str(&format!(": {}", words.join(", ")));
         }
     }
     if let Some(run) = drawn.outcome.run(i) {
