@@ -15,6 +15,7 @@ mod card;
 mod footer;
 mod overlay;
 mod parameters;
+mod plain;
 mod plots;
 mod queue;
 mod title;
@@ -27,6 +28,11 @@ pub fn view(model: &Model, frame: &mut Frame<'_>) {
 
 /// Draws the workbench into a buffer.
 pub fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
+    draw_panels(model, area, buffer);
+    plain::restrict(model.glyphs, area, buffer);
+}
+
+fn draw_panels(model: &Model, area: Rect, buffer: &mut Buffer) {
     let Some(areas) = layout::arrange(model) else {
         too_small(model, area, buffer);
         return;
