@@ -130,6 +130,27 @@ pub trait Method: Sync {
         None
     }
 
+    /// True when, under these settings, it judges the channels of a record together: those that have this method
+    /// with these same settings.
+    fn together(&self, settings: &Settings) -> bool {
+        let _ = settings;
+        false
+    }
+
+    /// Judges several channels together, where [`Method::together`] says so: one entry for each channel.
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more.
+    fn judge_together(
+        &self,
+        channels: &[&Series<'_>],
+        settings: &Settings,
+        stop: &Stop,
+    ) -> Result<Vec<Together>, Stopped> {
+        let _ = (channels, settings, stop);
+        Ok(Vec::new())
+    }
+
     /// What the method's document puts in place of the outliers (`own` repair): one value for each sample of
     /// `outliers` (positions in the segment, ascending, after the analyst's decisions), NaN where it puts nothing.
     fn own_repair(&self, segment: &Segment<'_>, settings: &Settings, judged: &Judged, outliers: &[usize]) -> Vec<f64> {
@@ -155,6 +176,17 @@ pub trait Method: Sync {
         let _ = settings;
         Vec::new()
     }
+}
+
+/// What is said of one of several channels that were judged together.
+#[derive(Debug, Clone)]
+pub struct Together {
+    /// Where the channel is cut, in its own positions: where the channels together are.
+    pub segments: Vec<Range<usize>>,
+    /// The scales of each segment.
+    pub scales: Vec<noise::Scales>,
+    /// One entry for each of the channel's own present samples.
+    pub judged: Judged,
 }
 
 /// What a method is.

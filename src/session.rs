@@ -16,7 +16,7 @@ mod document;
 mod replay;
 mod save;
 
-pub use analysis::{Counts, Detection, Fill, Mark, Outcome, Place, Run, detect, settle};
+pub use analysis::{Counts, Detection, Fill, Mark, Outcome, Place, Run, detect, detect_together, settle};
 pub use cleaned::{changes, clean_sha256, write_cleaned};
 pub use document::{read, render};
 pub use replay::{Analysed, Opened, check, open, open_all};
@@ -166,6 +166,12 @@ impl Setup {
     #[must_use]
     pub fn same_detection(&self, other: &Self) -> bool {
         self.method.about().id == other.method.about().id && self.settings == other.settings && self.rate == other.rate
+    }
+
+    /// True when this channel's detection depends on the other channels that share the setup.
+    #[must_use]
+    pub fn together(&self) -> bool {
+        self.method.together(&self.settings)
     }
 
     /// The default method with its defaults.

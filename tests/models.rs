@@ -284,6 +284,11 @@ fn the_filter_fills_a_patch_and_removes_what_it_cannot_fill() {
     assert!((changed[0] - record.truth[99]).abs() < 1.5, "a run that the analyst made longer is filled anew");
 }
 
+fn together(channels: &[&Series<'_>], settings: &Settings) -> Vec<Judged> {
+    let found = judge_joint(channels, settings, &Stop::never()).expect("nobody stops it");
+    found.into_iter().map(|part| part.judged).collect()
+}
+
 #[test]
 fn joint_channels_are_flagged_together_where_they_are_present() {
     let a = record(200).with([80, 120], 30.0);
@@ -292,11 +297,11 @@ fn joint_channels_are_flagged_together_where_they_are_present() {
     b.y[120] = f64::NAN;
     let (one, two) = (Series::new(&a.t, &a.y), Series::new(&b.t, &b.y));
     let joint = settings("kalman", &[("test", "joint"), ("alpha", "1e-6")]);
-    let judged = judge_joint(&[&one, &two], &joint, &Stop::never()).expect("nobody stops it");
+    let judged = together(&[&one, &two], &joint);
     assert_eq!(positions(&judged[0], Verdict::Outlier), [80, 120]);
     assert_eq!((judged[1].verdict.len(), positions(&judged[1], Verdict::Outlier)), (199, vec![80]));
     // By itself the second channel has nothing wrong at 80.
-    let alone = judge_joint(&[&two], &joint, &Stop::never()).expect("nobody stops it");
+    let alone = together(&[&two], &joint);
     assert!(positions(&alone[0], Verdict::Outlier).is_empty());
 }
 
@@ -305,7 +310,7 @@ fn one_channel_jointly_is_the_single_test_with_the_gate_of_chi_square() {
     let record = spiked();
     let series = Series::new(&record.t, &record.y);
     let joint = settings("kalman", &[("test", "joint")]);
-    let several = judge_joint(&[&series], &joint, &Stop::never()).expect("nobody stops it");
+    let several = together(&[&series], &joint);
     let cuts = series.segments(Some(5));
     let scales = noise::scales(&series, &cuts, &joint);
     let segment = Segment::of(&series, &cuts[0], scales[0], None);
@@ -334,4 +339,28 @@ fn every_knob_of_this_part_is_read() {
             }
         }
     }
+}
+
+/// The whole path: two channels with the same joint settings are one group in a session.
+#[test]
+fn a_session_judges_the_channels_that_share_joint_settings_together() {
+    use wildpoint::session::{Analysed, Preset, Session, Setup};
+    use wildpoint::track::{LoadOptions, Source, load};
+    let mut text = String::from("t_s,a_m,b_m\n");
+    for i in 0..200 {
+        let spike = if i == 80 { 30.0 } else { 0.0 };
+        text.push_str(&format!("{i},{:.6},{:.6}\n", noise_at(i) + spike, 2.0 * noise_at(i + 5000)));
+    }
+    let source = Source::BuiltIn { name: "test", bytes: text.into_bytes().into() };
+    let track = load(&source, &LoadOptions::default()).expect("it loads");
+    let mut setup = Setup::new(method("kalman"), Preset::Default);
+    let flagged = |setup: &Setup| {
+        let session = Session::new(&track, LoadOptions::default(), setup);
+        let analysed = Analysed::of(&session, &track, &Stop::never()).expect("it runs");
+        analysed.channels.iter().map(|(_, _, o)| o.outliers.contains(&80)).collect::<Vec<_>>()
+    };
+    setup.set_text("alpha", "1e-6").expect("a legal value");
+    assert_eq!(flagged(&setup), [true, false], "each by itself");
+    setup.set_text("test", "joint").expect("a legal value");
+    assert_eq!(flagged(&setup), [true, true], "together");
 }

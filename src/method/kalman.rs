@@ -1,9 +1,10 @@
 //! Kalman innovation test with infill: section 7 of the methods page, \[004\].
 
 use super::predictor::{Engine, Page};
-use super::{About, Judged, Method, Own, Segment, Verdict, Way, shared};
+use super::{About, Judged, Method, Own, Segment, Together, Verdict, Way, shared};
 use crate::param::{Kind, Param, Settings, Step, Value, always};
 use crate::stop::{Stop, Stopped};
+use crate::track::Series;
 
 mod fill;
 mod filter;
@@ -154,6 +155,19 @@ impl Method for Kalman {
         }
         let one = One { segment, tuning, max_run: settings.whole(shared::MAX_RUN.key) };
         Ok(passes::judge(&one, &plan(settings), stop)?.pop().unwrap_or_default())
+    }
+
+    fn together(&self, settings: &Settings) -> bool {
+        joint(settings)
+    }
+
+    fn judge_together(
+        &self,
+        channels: &[&Series<'_>],
+        settings: &Settings,
+        stop: &Stop,
+    ) -> Result<Vec<Together>, Stopped> {
+        judge_joint(channels, settings, stop)
     }
 
     fn own_repair(&self, segment: &Segment<'_>, settings: &Settings, judged: &Judged, outliers: &[usize]) -> Vec<f64> {

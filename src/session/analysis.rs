@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::Setup;
 use crate::error::{Error, Result};
 use crate::method::noise::{self, Scales};
-use crate::method::{Judged, Rate, Segment, Verdict, judge_segments, segments};
+use crate::method::{Judged, Rate, Segment, Together, Verdict, judge_segments, segments};
 use crate::repair::{self, Damage, Gap};
 use crate::review::{Decision, Decisions, Ruling};
 use crate::stop::{Stop, Stopped};
@@ -194,6 +194,30 @@ fn regated(previous: &Detection, setup: &Setup, series: &Series<'_>) -> Option<J
         && previous.setup.rate == setup.rate
         && previous.judged.scale.len() == series.len();
     comparable.then(|| previous.judged.regated(&series.y, setup.settings.real(key)))
+}
+
+/// Runs a method that judges channels together ([`Method::together`](crate::method::Method::together)) over all
+/// `channels` that share `setup`; one detection for each.
+///
+/// # Errors
+/// [`Error::Stopped`].
+pub fn detect_together(
+    track: &Track,
+    channels: &[(&Channel, &Samples)],
+    setup: &Setup,
+    stop: &Stop,
+) -> Result<Vec<Detection>> {
+    let series: Vec<Series<'_>> =
+        channels.iter().map(|(channel, samples)| samples.series(channel, &track.time)).collect();
+    let series: Vec<&Series<'_>> = series.iter().collect();
+    let parts = setup.method.judge_together(&series, &setup.settings, stop)?;
+    let detection = |part: Together| Detection {
+        setup: setup.clone(),
+        segments: part.segments,
+        scales: part.scales,
+        judged: part.judged,
+    };
+    Ok(parts.into_iter().map(detection).collect())
 }
 
 /// Lets the decisions win over the detection, repairs the outliers that hold, and fills gaps.

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::document::{Read, WrittenDecision, read_with_texts};
-use super::{Outcome, Plan, Recorded, Session, Setup, changes, clean_sha256, detect, settle};
+use super::{
+    Detection, Outcome, Plan, Recorded, Session, Setup, changes, clean_sha256, detect, detect_together, settle,
+};
 use crate::error::{Error, Result};
 use crate::stop::Stop;
 use crate::track::{LoadOptions, RowChecks, Samples, Source, Track, for_each_row, load};
@@ -171,7 +173,7 @@ impl Analysed {
     /// What [`detect`] and [`settle`] give; [`Error::Usage`] for a channel that the record does not have.
     pub fn of(session: &Session, track: &Track, stop: &Stop) -> Result<Self> {
         use rayon::prelude::*;
-        let one = |plan: &Plan| {
+        let prepare = |plan: &Plan| {
             let index = track.channels.iter().position(|c| c.name == plan.channel).ok_or_else(|| {
                 let names: Vec<&str> = track.channels.iter().map(|c| c.name.as_str()).collect();
                 Error::usage(
@@ -179,14 +181,21 @@ impl Analysed {
                     format!("channels: {}", names.join(", ")),
                 )
             })?;
+            Ok((index, Samples::of(&track.channels[index], &track.time)))
+        };
+        let prepared: Vec<(usize, Samples)> = session.plans.par_iter().map(prepare).collect::<Result<_>>()?;
+        let mut detections = together(session, track, &prepared, stop)?;
+        let todo = session.plans.par_iter().zip(prepared).zip(detections.par_iter_mut());
+        let one = |((plan, (index, samples)), ready): ((&Plan, (usize, Samples)), &mut Option<Detection>)| {
             let channel = &track.channels[index];
-            let samples = Samples::of(channel, &track.time);
-            let setup: &Setup = &plan.setup;
-            let detection = Arc::new(detect(track, channel, &samples, setup, None, stop)?);
-            let outcome = settle(track, channel, &samples, detection, &plan.decisions, stop)?;
+            let detection = match ready.take() {
+                Some(detection) => detection,
+                None => detect(track, channel, &samples, &plan.setup, None, stop)?,
+            };
+            let outcome = settle(track, channel, &samples, Arc::new(detection), &plan.decisions, stop)?;
             Ok((index, samples, outcome))
         };
-        let channels = session.plans.par_iter().map(one).collect::<Result<_>>()?;
+        let channels = todo.map(one).collect::<Result<_>>()?;
         Ok(Self { channels })
     }
 
@@ -211,6 +220,31 @@ impl Analysed {
         let clean_sha256 = clean_sha256(track, &self.changes(track))?;
         Ok(Recorded { flagged: self.flagged(), clean_sha256 })
     }
+}
+
+/// The detections of plans that are judged together with others, for the plans that are.
+fn together(
+    session: &Session,
+    track: &Track,
+    prepared: &[(usize, Samples)],
+    stop: &Stop,
+) -> Result<Vec<Option<Detection>>> {
+    let plans = &session.plans;
+    let mut detections: Vec<Option<Detection>> = vec![None; plans.len()];
+    for first in 0..plans.len() {
+        if !plans[first].setup.together() || detections[first].is_some() {
+            continue;
+        }
+        let members: Vec<usize> =
+            (first..plans.len()).filter(|&i| plans[i].setup.same_detection(&plans[first].setup)).collect();
+        let channels: Vec<_> = members.iter().map(|&i| (&track.channels[prepared[i].0], &prepared[i].1)).collect();
+        let found = detect_together(track, &channels, &plans[first].setup, stop)?;
+        for (member, detection) in members.into_iter().zip(found) {
+            let repair = plans[member].setup.clone();
+            detections[member] = Some(Detection { setup: repair, ..detection });
+        }
+    }
+    Ok(detections)
 }
 
 /// How this result differs from what the session recorded; empty when it does not.

@@ -11,7 +11,7 @@ use super::model::Model;
 use crate::error::{Error, Result};
 use crate::job::Worker;
 use crate::review::Decisions;
-use crate::session::{Analysed, Detection, Session, Setup, detect, document, settle, write_cleaned};
+use crate::session::{Analysed, Detection, Session, Setup, detect, detect_together, document, settle, write_cleaned};
 use crate::stop::Stop;
 use crate::track::{Outputs, Samples, Track};
 
@@ -25,6 +25,8 @@ pub struct Judge {
     setup: Setup,
     decisions: Decisions,
     previous: Option<Arc<Detection>>,
+    /// All channels that are judged together with this one, itself among them; empty when it is judged alone.
+    together: Vec<(usize, Arc<Samples>)>,
 }
 
 impl Judge {
@@ -32,6 +34,9 @@ impl Judge {
     #[must_use]
     pub fn new(model: &Model, plan: usize) -> Self {
         let state = &model.channels[plan];
+        let setup = &model.session.plans[plan].setup;
+        let shares = |i: &usize| setup.together() && model.session.plans[*i].setup.same_detection(setup);
+        let member = |i: usize| (model.channels[i].channel, Arc::clone(&model.channels[i].samples));
         Self {
             track: Arc::clone(&model.track),
             plan,
@@ -40,6 +45,7 @@ impl Judge {
             setup: model.session.plans[plan].setup.clone(),
             decisions: model.session.plans[plan].decisions.clone(),
             previous: state.drawn.as_ref().map(|d| Arc::clone(&d.outcome.detection)),
+            together: (0..model.channels.len()).filter(shares).map(member).collect(),
         }
     }
 
@@ -50,6 +56,8 @@ impl Judge {
     pub fn run(&self, stop: &Stop) -> Result<Drawn> {
         let channel = &self.track.channels[self.channel];
         let detection = match &self.previous {
+            // Which channels share the setup may have changed, though this one's has not.
+            _ if !self.together.is_empty() => Arc::new(self.detect_together(stop)?),
             Some(previous) if previous.setup.same_detection(&self.setup) => {
                 // Only repair or decisions have changed: what the method says stands.
                 let same = previous.setup == self.setup;
@@ -63,6 +71,17 @@ impl Judge {
         let outcome = settle(&self.track, channel, &self.samples, detection, &self.decisions, stop)?;
         stop.check()?;
         Ok(Drawn::new(outcome, &self.samples.series(channel, &self.track.time)))
+    }
+}
+
+impl Judge {
+    fn detect_together(&self, stop: &Stop) -> Result<Detection> {
+        let channels: Vec<_> =
+            self.together.iter().map(|(channel, samples)| (&self.track.channels[*channel], samples.as_ref())).collect();
+        let found = detect_together(&self.track, &channels, &self.setup, stop)?;
+        let own = self.together.iter().position(|(channel, _)| *channel == self.channel);
+        let own = own.and_then(|at| found.into_iter().nth(at));
+        own.map(|detection| detection.with_repair(&self.setup)).ok_or(Error::Stopped)
     }
 }
 

@@ -8,7 +8,7 @@ use super::filter::{Filter, Tuning};
 use super::passes::{self, Record};
 use super::single::{Gate, START_SCALES};
 use crate::method::predictor::{Answer, Engine, Model, Page, Prediction, Sink, passed_over_by_third};
-use crate::method::{Judged, Restart, Way, exceeds, noise, shared};
+use crate::method::{Judged, Restart, Together, Way, exceeds, noise, shared};
 use crate::param::Settings;
 use crate::stop::{Stop, Stopped};
 use crate::track::Series;
@@ -20,7 +20,7 @@ use crate::track::Series;
 ///
 /// # Errors
 /// [`Stopped`] as soon as nobody waits for the result any more.
-pub fn judge_joint(channels: &[&Series<'_>], settings: &Settings, stop: &Stop) -> Result<Vec<Judged>, Stopped> {
+pub fn judge_joint(channels: &[&Series<'_>], settings: &Settings, stop: &Stop) -> Result<Vec<Together>, Stopped> {
     let times = all_times(channels);
     let columns: Vec<Vec<f64>> = channels.iter().map(|series| on(&times, series)).collect();
     let together = Series::new(&times, &times);
@@ -51,7 +51,11 @@ pub fn judge_joint(channels: &[&Series<'_>], settings: &Settings, stop: &Stop) -
             whole.append(present(part, &y[cut.clone()]));
         }
     }
-    Ok(whole)
+    let parts = whole.into_iter().zip(own).zip(scales).map(|((judged, segments), scales)| {
+        let (segments, scales) = segments.into_iter().zip(scales).filter(|(segment, _)| !segment.is_empty()).unzip();
+        Together { segments, scales, judged }
+    });
+    Ok(parts.collect())
 }
 
 /// The gate in deviations when so many channels are tested together: for one it is what `c` is for it alone.
