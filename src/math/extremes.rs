@@ -61,8 +61,9 @@ impl<'a> Extremes<'a> {
     fn reach_inwards(&mut self, center: f64, scale: f64) {
         let width = self.high - self.low;
         let (mut low, mut high) = (center - 2.5 * scale, center + 2.5 * scale);
-        if width.is_finite() && high - low > 0.6 * width {
-            (low, high) = (self.low + 0.25 * width, self.high - 0.25 * width);
+        // In small steps, so that no single sort takes long.
+        if width.is_finite() && high - low > 0.8 * width {
+            (low, high) = (self.low + 0.15 * width, self.high - 0.15 * width);
         }
         // Much narrower than what has been taken already, or no width at all: what waits is handed over whole.
         let inside = low > self.low && high < self.high && low < high && width > 1e-3 * scale;

@@ -14,11 +14,11 @@ pub struct WindowFit {
 }
 
 impl WindowFit {
-    /// For windows of `len >= 1` samples at even steps.
+    /// For windows of `len >= 1` samples at even steps, with polynomials of order 5 at most.
     #[must_use]
     pub fn even(len: usize, order: usize) -> Self {
         let stride = len.div_ceil(LANES) * LANES;
-        let terms = order.min(len - 1) + 1;
+        let terms = order.min(5).min(len - 1) + 1;
         let mut fit = Self { len, terms, basis: vec![0.0; terms * stride], residual: vec![0.0; stride] };
         #[expect(clippy::cast_precision_loss, reason = "windows are short")]
         let t: Vec<f64> = (0..len).map(|i| i as f64).collect();
@@ -30,7 +30,7 @@ impl WindowFit {
     pub fn set_times(&mut self, t: &[f64]) {
         let (n, stride) = (self.len, self.residual.len());
         let (first, last) = (t[0], t[n - 1]);
-        let (center, scale) = (f64::midpoint(first, last), if last > first { (last - first) / 2.0 } else { 1.0 });
+        let (center, per_scale) = (f64::midpoint(first, last), if last > first { 2.0 / (last - first) } else { 1.0 });
         // The three-term recurrence with normalised polynomials: the next one is u times the last without its parts
         // along the two before it.
         self.basis[..n].fill(1.0);
@@ -44,11 +44,11 @@ impl WindowFit {
                     take_off(now, &done[(k - 2) * stride..(k - 1) * stride]);
                 }
             }
-            let norm = dot(now, now).sqrt();
-            now.iter_mut().for_each(|p| *p /= norm);
+            let unit = 1.0 / dot(now, now).sqrt();
+            now.iter_mut().for_each(|p| *p *= unit);
             if k + 1 < self.terms {
-                for i in 0..n {
-                    next[i] = (t[i] - center) / scale * now[i];
+                for ((next, t), now) in next.iter_mut().zip(t).zip(&*now) {
+                    *next = (t - center) * per_scale * now;
                 }
             }
         }
@@ -58,27 +58,52 @@ impl WindowFit {
     /// their absolute values.
     #[inline]
     pub fn fit(&mut self, x: &[f64]) -> (f64, f64) {
+        match self.terms {
+            1 => self.fit_terms::<1>(x),
+            2 => self.fit_terms::<2>(x),
+            3 => self.fit_terms::<3>(x),
+            4 => self.fit_terms::<4>(x),
+            5 => self.fit_terms::<5>(x),
+            _ => self.fit_terms::<6>(x),
+        }
+    }
+
+    /// As [`WindowFit::fit`], with the number of terms known to the compiler.
+    #[inline]
+    fn fit_terms<const TERMS: usize>(&mut self, x: &[f64]) -> (f64, f64) {
         let stride = self.residual.len();
+        let count = stride / LANES;
+        let rows: [&[[f64; LANES]]; TERMS] =
+            std::array::from_fn(|k| &self.basis[k * stride..(k + 1) * stride].as_chunks().0[..count]);
         // What all values have in common is taken off first: it would cost digits.
         let common = x[self.len / 2];
         for (r, x) in self.residual.iter_mut().zip(&x[..self.len]) {
             *r = x - common;
         }
-        let mut part = [0.0; 8];
-        for (c, row) in part.iter_mut().zip(self.basis.chunks_exact(stride)) {
-            *c = dot(row, &self.residual);
-        }
-        for (c, row) in part.iter().zip(self.basis.chunks_exact(stride)) {
-            for (r, p) in self.residual.iter_mut().zip(row) {
-                *r -= c * p;
+        let residual = &mut self.residual.as_chunks_mut::<LANES>().0[..count];
+        let mut parts = [[0.0; LANES]; TERMS];
+        for at in 0..count {
+            for k in 0..TERMS {
+                for i in 0..LANES {
+                    parts[k][i] += rows[k][at][i] * residual[at][i];
+                }
             }
         }
+        let parts: [f64; TERMS] = parts.map(|lanes| lanes.iter().sum());
         let (mut squares, mut largest) = ([0.0; LANES], [0.0_f64; LANES]);
-        for r in self.residual.chunks_exact(LANES) {
-            for i in 0..LANES {
-                squares[i] += r[i] * r[i];
-                largest[i] = largest[i].max(r[i].abs());
+        for at in 0..count {
+            let mut rest = residual[at];
+            for k in 0..TERMS {
+                for i in 0..LANES {
+                    rest[i] -= parts[k] * rows[k][at][i];
+                }
             }
+            for i in 0..LANES {
+                let size = rest[i].abs();
+                squares[i] += size * size;
+                largest[i] = if size > largest[i] { size } else { largest[i] };
+            }
+            residual[at] = rest;
         }
         (squares.iter().sum(), largest.iter().copied().fold(0.0, f64::max))
     }

@@ -3,7 +3,7 @@
 
 use super::window::{self, Edge, Windows};
 use super::{About, Judged, Method, Own, Segment, Verdict, exceeds, reaches, shared};
-use crate::math::order::{mad_scale_in_place, median_in_place};
+use crate::math::order::{MAD_TO_SIGMA, median_of_many};
 use crate::math::sorted_window::SortedWindow;
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
@@ -111,9 +111,8 @@ fn judge(
     let mut pass = 0;
     loop {
         let z = smoother.smooth(&x)?;
-        let mut residual: Vec<f64> = x.iter().zip(&z).map(|(x, z)| x - z).collect();
-        let center = median_in_place(&mut residual);
-        let tolerance = k * scale(mad_scale_in_place(&mut residual, center));
+        let center = median_of_many(n, |i| x[i] - z[i]);
+        let tolerance = k * scale(MAD_TO_SIGMA * median_of_many(n, |i| (x[i] - z[i] - center).abs()));
         let mut new = false;
         for i in judged_ones.clone() {
             if reaches((x[i] - z[i]).abs(), tolerance) {

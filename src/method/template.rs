@@ -37,7 +37,7 @@ impl Method for Template {
     fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
         let n = segment.len();
         if n < 3 {
-            return Ok(Judged::unchecked(n));
+            return Ok(window::too_short(n, window::has_feedback(settings)));
         }
         let mut lines = Lines::new(segment, settings);
         // What is said on the data as given: residual and scale. With feedback, only what lies within reach of a
@@ -49,7 +49,7 @@ impl Method for Template {
             [segment.y[i] - residual[i], lines.scale(state, &residual, i)]
         })?;
         let pooled = settings.word(shared::NOISE_FLOOR.key) == "pooled";
-        let limits = Limits::new(pooled.then_some(&figures), segment);
+        let limits = Limits::new(pooled.then_some(&figures[2..]), segment);
         let k = settings.real(shared::K.key);
         if window::has_feedback(settings) {
             return lines.feed_back(&mut residual, &figures, &limits, k, stop);

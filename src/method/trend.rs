@@ -3,6 +3,7 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
@@ -72,12 +73,14 @@ pub(super) struct Limit {
 }
 
 /// The settings that the criteria share.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 struct Rule {
     order: usize,
     refit: bool,
     max_passes: usize,
     block: usize,
+    /// Noise of the whole segment, once a short block asks for it.
+    noise: OnceLock<f64>,
 }
 
 /// Judges a segment block by block.
@@ -90,7 +93,7 @@ pub(super) fn judge(
     let order = settings.whole(shared::TREND_ORDER.key);
     let max_passes = settings.whole(shared::MAX_PASSES.key);
     let refit = order > 0 && settings.switch(shared::REFIT.key);
-    let rule = Rule { order, refit, max_passes, block: settings.whole(shared::BLOCK.key) };
+    let rule = Rule { order, refit, max_passes, block: settings.whole(shared::BLOCK.key), noise: OnceLock::new() };
     let zero = segment.zero();
     let parts: Vec<Judged> = blocks(segment.len(), rule.block)
         .into_par_iter()
@@ -149,12 +152,15 @@ fn judge_block(
         if nothing_new || passes == rule.max_passes || position.len() - pass.flagged.len() < fewest {
             break;
         }
+        stop.check()?;
         position.retain(|&p| !flagged[p]);
         ts = Cow::Owned(position.iter().map(|&p| t[p]).collect());
+        stop.check()?;
         ys = Cow::Owned(position.iter().map(|&p| y[p]).collect());
         if rule.refit {
             fit = self::fit(&ts, &ys, rule.order, stop)?;
         }
+        stop.check()?;
         residual = residuals(&fit, &ts, &ys);
     }
     let mut judged = verdicts(&fit, t, &flagged, &limits);
@@ -162,7 +168,7 @@ fn judge_block(
     if rule.block == 0 || n < rule.block {
         judged.warnings.extend(warning::of_reach(criterion, t, &fit));
     }
-    judged.warnings.extend(warning::of_trend(segment, &block, &limits, zero));
+    judged.warnings.extend(warning::of_trend(segment, &block, &limits, &rule.noise));
     Ok(judged)
 }
 

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::{Judged, Segment, Verdict, reaches, shared};
-use crate::math::order::median_in_place;
+use crate::math::order::median_of_many;
 use crate::param::Settings;
 use crate::stop::{Stop, Stopped};
 
@@ -107,11 +107,16 @@ pub(super) fn sweep<T: Send, S>(
     })
 }
 
+/// What is said of a segment too short to judge: without feedback it has scales, as the segments beside it have.
+pub(super) fn too_short(n: usize, feedback: bool) -> Judged {
+    Judged { scale: vec![f64::NAN; if feedback { 0 } else { n }], ..Judged::unchecked(n) }
+}
+
 /// Judges a segment by windows around each sample.
 pub(super) fn judge(rule: &Rule, segment: &Segment<'_>, stop: &Stop) -> Result<Judged, Stopped> {
     let n = segment.len();
     if n < 3 {
-        return Ok(Judged::unchecked(n));
+        return Ok(too_short(n, rule.feedback));
     }
     // A level and the slope are taken off first and added again at the end: what is left is as small as the data
     // allow, whatever their offset.
@@ -129,13 +134,15 @@ pub(super) fn judge(rule: &Rule, segment: &Segment<'_>, stop: &Stop) -> Result<J
         s.move_to(&x, range.clone(), range.start);
         s.figures()
     })?;
-    let limits = Limits::new(rule.pooled.then_some(&figures), segment);
+    stop.check()?;
+    let limits = Limits::new(rule.pooled.then_some(&figures[..]), segment);
     if rule.feedback {
         base.iter_mut().for_each(|b| *b += level);
         return feed_back(rule, segment, &windows, &mut x, &base, &figures, &limits, stop);
     }
     let expected = figures.iter().zip(&base).map(|(f, b)| f[0] + b + level).collect();
     let scale = figures.iter().map(|f| limits.bound(f[1])).collect();
+    stop.check()?;
     Ok(Judged::gated(segment.y, expected, scale, rule.k))
 }
 
@@ -149,11 +156,8 @@ pub(super) struct Limits<'a> {
 
 impl<'a> Limits<'a> {
     /// With the pooled floor, the median scale of all windows on the data as given, when their figures are there.
-    pub(super) fn new(figures: Option<&Vec<[f64; 2]>>, segment: &Segment<'a>) -> Self {
-        let pooled = figures.map_or(0.0, |figures| {
-            let mut scales: Vec<f64> = figures.iter().map(|f| f[1]).filter(|s| !s.is_nan()).collect();
-            if scales.is_empty() { 0.0 } else { median_in_place(&mut scales) }
-        });
+    pub(super) fn new(figures: Option<&[[f64; 2]]>, segment: &Segment<'a>) -> Self {
+        let pooled = figures.map_or(0.0, |figures| median_of_many(figures.len(), |i| figures[i][1]).max(0.0));
         Self { segment: *segment, zero: segment.zero(), pooled }
     }
 

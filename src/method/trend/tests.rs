@@ -114,6 +114,8 @@ fn a_trend_that_does_not_follow_is_reported() {
         (0..2000).map(|i| 50.0 * (f64::from(i) / 60.0).sin() + f64::from(i * 7919 % 101) / 50.0).collect();
     assert!(judged(&TrendWright, &y, &[]).warnings[0].contains("does not follow"));
     assert!(judged(&TrendWright, &y, &[("block", Value::Whole(50))]).warnings.is_empty());
+    // Few samples in a block say little of the noise: that of the whole segment stands in, and nothing is cried out.
+    assert!(judged(&TrendWright, &y, &[("block", Value::Whole(12))]).warnings.iter().all(|w| !w.contains("follow")));
     // The same over more samples than the noise is taken from one by one.
     let y: Vec<f64> =
         (0..40_000).map(|i| 50.0 * (f64::from(i) / 600.0).sin() + f64::from(i * 7919 % 101) / 50.0).collect();

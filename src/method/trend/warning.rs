@@ -1,6 +1,7 @@
 //! What the user should know about the results of whole-segment criteria ("Warnings" of section 2).
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use super::{Criterion, Limit};
 use crate::math::order::median_in_place;
@@ -57,15 +58,21 @@ pub(in crate::method) fn of_settings(criterion: &impl Criterion, settings: &Sett
     of_reach(criterion, &t, &fit).into_iter().collect()
 }
 
-/// That the trend of a block does not follow the data.
+/// That the trend of a block does not follow the data; `whole` is the noise of the segment, once it is known.
 pub(super) fn of_trend(
     segment: &Segment<'_>,
     block: &Range<usize>,
     limits: &[Option<Limit>],
-    zero: f64,
+    whole: &OnceLock<f64>,
 ) -> Option<String> {
+    // As everywhere: fewer than 50 third differences say too little by themselves.
+    let noise = if block.len() < 53 {
+        *whole.get_or_init(|| difference_scale(segment, &(0..segment.len())))
+    } else {
+        difference_scale(segment, block)
+    };
     let scale = limits.iter().flatten().map(|limit| limit.scale).fold(0.0, f64::max);
-    let follows = scale <= zero || scale <= 3.0 * difference_scale(segment, block).max(segment.floor);
+    let follows = scale <= 3.0 * noise.max(segment.floor);
     (!follows).then(|| {
         "the trend does not follow the data: what is left of them is more than three times their noise; raise \
          trend_order or set block"

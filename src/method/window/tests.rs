@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::math::order::{mad_scale_in_place, median};
+use crate::math::order::{mad_scale_in_place, median, median_in_place};
 
 fn figures(w: &[f64], rule: &Rule) -> (f64, f64) {
     let n = w.len() as f64;
@@ -121,4 +121,32 @@ fn an_abandoned_judgement_stops() {
     let y = [1.0; 100];
     let segment = Segment { t: &y, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, rate: None };
     assert_eq!(judge(&rule(), &segment, &Stop::when_superseded(newest, 1)), Err(Stopped));
+}
+
+#[test]
+fn gating_again_is_judging_again_across_cuts_and_short_segments() {
+    use crate::method::{Method, hampel::Hampel, judge_channel, template::Template};
+    use crate::param::Value;
+    use crate::track::Series;
+
+    // Segments of 60, 2 and 60 samples.
+    let t: Vec<f64> =
+        (0..122).map(|i| f64::from(i) + if i >= 60 { 50.0 } else { 0.0 } + if i >= 62 { 50.0 } else { 0.0 }).collect();
+    let y: Vec<f64> = (0..122).map(|i| (f64::from(i) * 12.9898).sin() + if i % 23 == 5 { 4.0 } else { 0.0 }).collect();
+    let series = Series::new(&t, &y);
+    for method in [&Hampel as &dyn Method, &Template] {
+        let mut settings = Settings::defaults(method.about().params);
+        if has_feedback(&settings) {
+            settings.set("it", shared::FEEDBACK.key, Value::Switch(false)).unwrap();
+        }
+        let judged = |settings: &Settings| judge_channel(method, &series, None, settings, &Stop::never()).unwrap();
+        let mut again = judged(&settings);
+        let key = method.gate(&settings).unwrap();
+        settings.set("it", key, Value::Real(1.7)).unwrap();
+        again.gate(&y, 1.7);
+        let wanted = judged(&settings);
+        assert_eq!((again.verdict.len(), &again.verdict), (122, &wanted.verdict));
+        let bits = |v: &[f64]| v.iter().map(|h| h.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&again.tolerance), bits(&wanted.tolerance));
+    }
 }
