@@ -178,9 +178,10 @@ fn plus(a: u64, b: u64) -> u64 {
 
 fn times(a: u64, b: u64) -> u64 {
     let product = u128::from(a) * u128::from(b);
+    // 2^61 = 1, so the high bits count like the low ones; the sum is below 2 p.
     #[expect(clippy::cast_possible_truncation, reason = "61 bits each")]
     let (low, high) = ((product & u128::from(P)) as u64, (product >> 61) as u64);
-    plus(low % P, high % P)
+    plus(low, high)
 }
 
 /// By Fermat's little theorem: `a^(p - 2)`.

@@ -19,10 +19,15 @@ const IDS: [&str; 17] = [
 pub(crate) fn about_backward_times(track: &Track, text: &Text<'_>, row: usize, backward: &Fault) -> Result<String> {
     let mut before: Vec<String> = Vec::new();
     let mut here: Vec<String> = Vec::new();
-    rows::walk(track, text, |r, record, spans| {
+    rows::walk(track, text, |r, record, splitter| {
         if r + 1 >= row {
-            let cells =
-                Cells { record: record.bytes, spans, quote: track.dialect.quote, encoding: text.encoding, line: 0 };
+            let cells = Cells {
+                record: record.bytes,
+                spans: splitter.cells(record),
+                quote: track.dialect.quote,
+                encoding: text.encoding,
+                line: 0,
+            };
             before =
                 std::mem::replace(&mut here, (0..track.columns.len()).map(|c| cells.text(c).into_owned()).collect());
         }

@@ -19,7 +19,7 @@ pub(crate) enum Cell {
 pub(crate) const MARKERS: [&str; 7] = ["nan", "na", "n/a", "null", "none", "-", "--"];
 
 /// Powers of ten that are doubles exactly.
-const POWERS: [f64; 23] = [
+pub(crate) const POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20,
     1e21, 1e22,
 ];
@@ -59,7 +59,13 @@ impl Reading {
                 Some(_) => return Cell::Infinite,
             },
         };
-        if self.values.contains(&value) { Cell::Missing } else { Cell::Number(value) }
+        if self.is_missing(value) { Cell::Missing } else { Cell::Number(value) }
+    }
+
+    /// True when the user told that `value` means "no value".
+    #[inline]
+    pub(crate) fn is_missing(&self, value: f64) -> bool {
+        self.values.contains(&value)
     }
 
     /// True when `cell` is empty or a marker that is not a number.

@@ -46,44 +46,42 @@ pub(crate) struct Ordered {
 /// usable row gets NaN. With `clock`, moments are times of day, and a step back of more than half a day is midnight.
 pub(crate) fn order(moments: Moments, clock: bool) -> Ordered {
     match moments {
-        Moments::Exact(ns) => exact(&ns, clock),
+        Moments::Exact(ns) => exact(ns, clock),
         Moments::Float(seconds) => float(seconds),
     }
 }
 
-fn exact(moments: &[i64], clock: bool) -> Ordered {
-    let mut ordered = Ordered { seconds: Vec::with_capacity(moments.len()), ..Ordered::default() };
+fn exact(moments: Vec<i64>, clock: bool) -> Ordered {
+    let mut ordered = Ordered::default();
     let mut last: Option<i64> = None;
     let mut last_seconds = 0.0;
     let mut origin = 0;
     let mut days = Days::default();
-    for (row, &moment) in moments.iter().enumerate() {
+    let mut place = |row: usize, moment: i64| {
         if moment == UNREADABLE {
             ordered.unreadable.add(row);
-            ordered.seconds.push(f64::NAN);
-            continue;
+            return f64::NAN;
         }
         let now = if clock { days.moment(moment, last) } else { moment };
         let Some(before) = last else {
             origin = now;
             last = Some(now);
-            ordered.seconds.push(0.0);
-            continue;
+            return 0.0;
         };
         // Over spans of months a double of seconds is coarser than a nanosecond: the axis must increase all the same.
         let seconds = since(now, origin);
         if seconds > last_seconds {
             last = Some(now);
             last_seconds = seconds;
-            ordered.seconds.push(seconds);
-            continue;
+            return seconds;
         }
         let fault = if now >= before { &mut ordered.repeated } else { &mut ordered.backward };
         fault.add(row);
-        ordered.seconds.push(f64::NAN);
-    }
-    ordered.origin_ns = i128::from(origin);
-    ordered
+        f64::NAN
+    };
+    // Collecting in place of the moments keeps memory at one column.
+    let seconds = moments.into_iter().enumerate().map(|(row, moment)| place(row, moment)).collect();
+    Ordered { origin_ns: i128::from(origin), seconds, ..ordered }
 }
 
 /// The midnights that a file of times of day has passed.

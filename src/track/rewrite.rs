@@ -121,19 +121,20 @@ impl<'a> Editor<'a> {
         if self.cells.is_empty() && self.rows.is_empty() {
             return Ok(0);
         }
-        walk(self.track, text, |row, record, spans| {
+        walk(self.track, text, |row, record, splitter| {
             let mine = self.cells.iter().take_while(|c| c.row as usize == row).count();
             if mine > 0 {
                 let (now, later) = self.cells.split_at(mine);
                 self.cells = later;
                 pen.text(&body[written..record.start])?;
-                pen.text(&self.changed(record, spans, now))?;
+                pen.text(&self.changed(record, splitter.cells(record), now))?;
                 written = record.start + record.bytes.len();
             }
             if self.rows.is_empty() {
                 return Ok(!self.cells.is_empty());
             }
-            self.note_form(record, spans);
+            let spans = splitter.cells(record);
+            self.note_form(row, record, spans);
             let mine = self.rows.iter().take_while(|r| r.after_row as usize == row).count();
             if mine > 0 {
                 let (now, later) = self.rows.split_at(mine);
@@ -155,11 +156,12 @@ impl<'a> Editor<'a> {
     }
 
     /// Remembers how times and line ends look.
-    fn note_form(&mut self, record: &Record<'a>, spans: &[Span]) {
+    fn note_form(&mut self, row: usize, record: &Record<'a>, spans: &[Span]) {
         if !record.end.is_empty() {
             self.line_end = record.end;
         }
-        if let Some(column) = self.track.time.column {
+        let usable = self.track.time.seconds.get(row).is_some_and(|s| s.is_finite());
+        if let Some(column) = self.track.time.column.filter(|_| usable) {
             let time = self.cell(record, spans, column);
             let precision = |t: &str| (t.matches(':').count(), t.find(['.', ',']).map_or(0, |at| t.len() - at));
             if self.time_sample.is_empty() || precision(&time) > precision(&self.time_sample) {
@@ -245,7 +247,14 @@ fn patched(record: &[u8], spans: &[Span], layout: Layout, edits: &[(usize, Strin
         let (start, end) = (span.start as usize + within.start, span.start as usize + within.end);
         line.extend_from_slice(&record[done..start]);
         align(&mut line, end - start, text.len());
-        line.extend_from_slice(text.as_bytes());
+        let bare = span.of(record).trim_ascii().len() == end - start;
+        match (layout.delimiter, layout.quote) {
+            // A decimal comma between commas.
+            (Delimiter::Byte(delimiter), Some(quote)) if bare && text.as_bytes().contains(&delimiter) => {
+                line.extend([&[quote], text.as_bytes(), &[quote]].concat());
+            }
+            _ => line.extend_from_slice(text.as_bytes()),
+        }
         done = end;
     }
     line.extend_from_slice(&record[done..]);
@@ -347,6 +356,22 @@ mod tests {
         out.clear();
         rewrite(&track(b"t,x\xb0\n0,9\n1,2\n"), &changes, &mut out).unwrap();
         assert_eq!(out, b"t,x\xb0\n0,1.5\n1,2\n");
+    }
+
+    #[test]
+    fn a_decimal_comma_between_commas_is_quoted() {
+        let source = Source::BuiltIn { name: "wildpoint:test", bytes: Arc::from(&b"t,x\n0,\"1,5\"\n1,2\n"[..]) };
+        let track = load(&source, &LoadOptions { decimal_comma: Some(true), ..LoadOptions::default() }).unwrap();
+        let cell = |row| CellChange { row, column: 1, value: Some(2.5) };
+        let mut out = Vec::new();
+        rewrite(&track, &Changes { cells: vec![cell(0), cell(1)], rows: Vec::new() }, &mut out).unwrap();
+        assert_eq!(String::from_utf8(out).unwrap(), "t,x\n0,\"2,5\"\n1,\"2,5\"\n");
+    }
+
+    #[test]
+    fn unusable_times_are_no_pattern_for_new_ones() {
+        let text = "time,x\n0,1\nnoon-0.123:4:5,2\n2,3\n";
+        assert_eq!(rewritten(text, &[], &[(2, 3.0, 1, 4.0)]), format!("{text}3,4\n"));
     }
 
     #[test]

@@ -17,10 +17,10 @@ use crate::error::{Error, Result};
 pub fn for_each_row(track: &Track, mut f: impl FnMut(usize, &Cells<'_>) -> Result<()>) -> Result<()> {
     let stored = unchanged(track)?;
     let text = text_of(track, &stored)?;
-    walk(track, &text, |row, record, spans| {
+    walk(track, &text, |row, record, splitter| {
         let cells = Cells {
             record: record.bytes,
-            spans,
+            spans: splitter.cells(record),
             quote: track.dialect.quote,
             encoding: text.encoding,
             line: record.line,
@@ -60,17 +60,32 @@ impl Dialect {
     }
 }
 
-/// Calls `f` with each data row (from 0), its record and its cells, until `f` gives false.
+/// Splits records into cells where somebody wants them.
+#[derive(Debug)]
+pub(crate) struct Splitter {
+    layout: Layout,
+    spans: Vec<Span>,
+}
+
+impl Splitter {
+    /// The cells of `record`.
+    pub(crate) fn cells(&mut self, record: &Record<'_>) -> &[Span] {
+        split(record.bytes, self.layout, &mut self.spans);
+        &self.spans
+    }
+}
+
+/// Calls `f` with each data row (from 0), its record and what splits it, until `f` gives false.
 ///
 /// # Errors
 /// What `f` gives.
 pub(crate) fn walk<'a>(
     track: &Track,
     text: &'a Text<'_>,
-    mut f: impl FnMut(usize, &Record<'a>, &[Span]) -> Result<bool>,
+    mut f: impl FnMut(usize, &Record<'a>, &mut Splitter) -> Result<bool>,
 ) -> Result<()> {
-    let layout = track.dialect.layout(text.body());
-    let mut spans = Vec::new();
+    let layout = track.dialect.layout(text.body()).without_idle_quote(text.body());
+    let mut splitter = Splitter { layout, spans: Vec::new() };
     let mut before = track.dialect.preamble;
     let mut row = 0;
     for record in Records::new(text.body(), layout) {
@@ -81,13 +96,15 @@ pub(crate) fn walk<'a>(
         if record.kind != RecordKind::Data {
             continue;
         }
-        split(record.bytes, layout, &mut spans);
         // Empty rows before the first data row belong to what stands before it.
-        if row == 0 && (before > 0 || is_empty(record.bytes, &spans, layout)) {
-            before -= usize::from(!is_empty(record.bytes, &spans, layout));
-            continue;
+        if row == 0 {
+            let empty = is_empty(record.bytes, splitter.cells(&record), layout);
+            if before > 0 || empty {
+                before -= usize::from(!empty);
+                continue;
+            }
         }
-        if !f(row, &record, &spans)? {
+        if !f(row, &record, &mut splitter)? {
             break;
         }
         row += 1;

@@ -1,7 +1,9 @@
 //! Recognising delimiter, quote and decimal comma from the first records.
 
+use memchr::memchr;
+
 use super::number::{Cell, Reading};
-use super::tokens::{Layout, RecordKind, Records, inner, line_end_of, split};
+use super::tokens::{Layout, RecordKind, Records, inner, kind_of, line_end_of, split};
 use super::{Delimiter, LoadOptions, stamp};
 
 /// How much of a file is looked at.
@@ -50,8 +52,15 @@ pub(crate) fn sniff(body: &[u8], options: &LoadOptions) -> (Layout, bool) {
     (layout, decimal_comma)
 }
 
-/// The head of `body`, cut at a line end.
+/// The head of `body` after its comments, cut at a line end.
 fn sample_of(body: &[u8], line_end: u8) -> &[u8] {
+    let mut body = body;
+    // Some instruments write their whole configuration as comments before the first row.
+    while let Some(at) = memchr(line_end, body)
+        && kind_of(&body[..at]) != RecordKind::Data
+    {
+        body = &body[at + 1..];
+    }
     if body.len() <= SAMPLE_BYTES {
         return body;
     }
@@ -183,6 +192,12 @@ mod tests {
         ] {
             assert_eq!(sniffed(text), (delimiter, double, comma), "{text}");
         }
+    }
+
+    #[test]
+    fn long_comments_before_the_rows_hide_nothing() {
+        let text = format!("{}t;x\n0;1,5\n1;2,5\n", "# a, b, c\n".repeat(10_000));
+        assert_eq!(sniffed(&text), (Delimiter::Byte(b';'), Some(b'"'), true));
     }
 
     #[test]

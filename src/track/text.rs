@@ -88,12 +88,11 @@ impl<'a> Text<'a> {
     }
 
     /// What the source starts with before its first record, to be written again.
-    pub(crate) fn mark(&self) -> &'static [u8] {
+    pub(crate) fn mark(&self) -> &[u8] {
         match self.encoding {
-            Encoding::Utf8 { bom: true } => b"\xef\xbb\xbf",
             Encoding::Utf16 { big_endian: false } => b"\xff\xfe",
             Encoding::Utf16 { big_endian: true } => b"\xfe\xff",
-            Encoding::Utf8 { bom: false } | Encoding::Latin1 => b"",
+            Encoding::Utf8 { .. } | Encoding::Latin1 => &self.bytes[..self.start],
         }
     }
 }
@@ -179,8 +178,10 @@ mod tests {
         ] {
             let text = text(stored).unwrap();
             assert_eq!((text.body(), text.encoding), (&b"a"[..], encoding));
-            assert!(stored.starts_with(text.mark()));
+            assert_eq!(text.mark(), &stored[..stored.iter().position(|b| b"a\0".contains(b)).unwrap()]);
         }
+        // A mark of one encoding before bytes of another is kept all the same.
+        assert_eq!(text(b"\xef\xbb\xbf\xb0").unwrap().mark(), b"\xef\xbb\xbf");
     }
 
     #[test]

@@ -16,6 +16,14 @@ pub(crate) struct Layout {
     pub(crate) line_end: u8,
 }
 
+impl Layout {
+    /// The same for `text`, but without a quote that does not occur in it: its records need no search for one, and
+    /// end at every line end.
+    pub(crate) fn without_idle_quote(self, text: &[u8]) -> Self {
+        Self { quote: self.quote.filter(|q| memchr(*q, text).is_some()), ..self }
+    }
+}
+
 /// The line end that `body` uses.
 pub(crate) fn line_end_of(body: &[u8]) -> u8 {
     if memchr(b'\n', body).is_none() && memchr(b'\r', body).is_some() { b'\r' } else { b'\n' }

@@ -1,0 +1,135 @@
+//! The rows of a chunk of lines to numbers.
+
+use super::body::{Body, Plan};
+use super::number::Cell;
+use super::order::UNREADABLE;
+use super::quick::{Quick, QuickRow};
+use super::stamp::Count;
+use super::text::decoded;
+use super::timing::nanoseconds;
+use super::tokens::{OpenQuote, RecordKind, Records, Span, inner, is_empty, split};
+
+/// A chunk of lines, and the buffers that its rows go to.
+pub(crate) struct Chunk<'a> {
+    plan: &'a Plan<'a>,
+    body: &'a mut Body,
+}
+
+impl<'a> Chunk<'a> {
+    /// With an empty `body`.
+    pub(crate) fn new(plan: &'a Plan<'a>, body: &'a mut Body) -> Self {
+        Self { plan, body }
+    }
+
+    /// Parses the lines of `chunk`.
+    ///
+    /// # Errors
+    /// [`OpenQuote`] where a quoted cell does not end.
+    pub(crate) fn parse(mut self, chunk: &[u8]) -> Result<(), OpenQuote> {
+        let plan = self.plan;
+        let quick = Quick::new(plan.layout, plan.reading, plan.timing.as_ref(), &plan.slots, plan.counts);
+        let mut quick_row = QuickRow { values: vec![f64::NAN; self.body.numbers.len()], ..QuickRow::default() };
+        let mut spans = Vec::new();
+        let mut rest = chunk;
+        while !rest.is_empty() {
+            if let Some(quick) = &quick
+                && let Some(length) = quick.read(rest, &mut quick_row)
+            {
+                self.quick_row(&quick_row);
+                rest = &rest[length..];
+                continue;
+            }
+            rest = &rest[self.record(rest, &mut spans)?..];
+        }
+        Ok(())
+    }
+
+    fn quick_row(&mut self, row: &QuickRow) {
+        self.body.fill_empty_tail();
+        self.body.lines += 1;
+        self.body.rows += 1;
+        if let Some(moments) = &mut self.body.moments {
+            moments.push(row.moment);
+        }
+        for (numbers, value) in self.body.numbers.iter_mut().zip(&row.values) {
+            numbers.present += usize::from(!value.is_nan());
+            numbers.values.push(*value);
+        }
+        row.missing.iter().for_each(|column| self.body.missing[*column] += 1);
+    }
+
+    /// Takes the record at the start of `rest`; gives its length.
+    fn record(&mut self, rest: &[u8], spans: &mut Vec<Span>) -> Result<usize, OpenQuote> {
+        let mut records = Records::new(rest, self.plan.layout);
+        let line = self.body.lines + 1;
+        let Some(record) = records.next() else { return Ok(rest.len()) };
+        let record = record.map_err(|q| OpenQuote { line: q.line + self.body.lines })?;
+        self.body.lines += records.lines();
+        if record.kind == RecordKind::Data {
+            split(record.bytes, self.plan.layout, spans);
+            if is_empty(record.bytes, spans, self.plan.layout) {
+                self.body.empty_tail += 1;
+            } else {
+                self.body.fill_empty_tail();
+                self.row(line, record.bytes, spans);
+            }
+        }
+        Ok(record.bytes.len() + record.end.len())
+    }
+
+    fn row(&mut self, line: u64, record: &[u8], spans: &[Span]) {
+        self.body.rows += 1;
+        if !self.plan.counts.contains(&spans.len()) {
+            self.body.ragged.add(line, &format!("{} cells", spans.len()));
+        }
+        let quote = self.plan.layout.quote;
+        let cell = |column: usize| {
+            let raw = spans.get(column).map_or(&[][..], |s| s.of(record));
+            // Most cells are bare: no padding, no quote.
+            match raw {
+                [first, .., last] | [first @ last] if first.is_ascii_digit() && last.is_ascii_digit() => raw,
+                _ => &raw[inner(raw, quote)],
+            }
+        };
+        if let Some(timing) = &self.plan.timing {
+            let date = timing.date_column.map_or(&[][..], cell);
+            let moment = timing.read(cell(timing.column), date, self.plan.reading.decimal_comma);
+            let ns = match moment {
+                Some(Count::Exact(ns)) => ns,
+                Some(Count::Inexact(seconds)) => {
+                    self.body.rounded += 1;
+                    match nanoseconds(seconds * 1e9) {
+                        Some(Count::Exact(ns)) => ns,
+                        _ => UNREADABLE,
+                    }
+                }
+                None => UNREADABLE,
+            };
+            self.body.moments.iter_mut().for_each(|m| m.push(ns));
+        }
+        for (column, slot) in self.plan.slots.iter().enumerate() {
+            let cell = cell(column);
+            let Some(slot) = slot else {
+                self.body.missing[column] += usize::from(self.plan.reading.is_marker(cell));
+                continue;
+            };
+            let numbers = &mut self.body.numbers[*slot];
+            let value = match self.plan.reading.cell(cell) {
+                Cell::Number(value) => {
+                    numbers.present += 1;
+                    value
+                }
+                other => {
+                    self.body.missing[column] += 1;
+                    match other {
+                        Cell::Infinite => numbers.infinite.add(line, &decoded(cell, self.plan.encoding)),
+                        Cell::Text => numbers.unreadable.add(line, &decoded(cell, self.plan.encoding)),
+                        Cell::Missing | Cell::Number(_) => {}
+                    }
+                    f64::NAN
+                }
+            };
+            numbers.values.push(value);
+        }
+    }
+}
