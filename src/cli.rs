@@ -168,6 +168,9 @@ pub struct Load {
     /// The first line is data, not names [default: recognised].
     #[arg(long)]
     pub no_header: bool,
+    /// Quotes are ordinary characters.
+    #[arg(long)]
+    pub no_quotes: bool,
     /// How dates like 1/2/2005 are meant, where the file does not show it.
     #[arg(long, value_enum, value_name = "ORDER")]
     pub dates: Option<DateOrder>,
@@ -290,6 +293,7 @@ impl Load {
             }),
             decimal_comma: self.decimal_comma.then_some(true),
             header: self.no_header.then_some(false),
+            quotes: self.no_quotes.then_some(false),
             day_first: self.dates.map(|d| d == DateOrder::DayFirst),
             ..LoadOptions::default()
         }

@@ -38,6 +38,9 @@ pub struct Decision {
     pub ruling: Ruling,
     /// Why, in the analyst's words; often empty.
     pub note: String,
+    /// What the method said when it was decided, where that is known: a decision that agreed with it then and does
+    /// not now is a conflict. Not part of a saved session, whose method is the one it was decided under.
+    pub said: Option<Verdict>,
 }
 
 /// The decisions about one channel, by row (from 0).
@@ -125,6 +128,12 @@ impl<E: Clone> History<E> {
     /// The last edit that is in force, for joining a further one to it.
     pub fn last_mut(&mut self) -> Option<&mut E> {
         if self.undone.is_empty() { self.done.last_mut() } else { None }
+    }
+
+    /// The last edit that is in force.
+    #[must_use]
+    pub fn last(&self) -> Option<&E> {
+        self.done.last()
     }
 
     /// How many edits are in force.

@@ -34,6 +34,8 @@ pub struct Mark {
     pub verdict: Verdict,
     /// What the analyst decided, if anything.
     pub ruling: Option<Ruling>,
+    /// What the method said then, where that is known.
+    pub said: Option<Verdict>,
 }
 
 impl Mark {
@@ -43,10 +45,13 @@ impl Mark {
         self.ruling.map_or(self.verdict, Ruling::verdict)
     }
 
-    /// True when the analyst's word is against what the method now says.
+    /// True when the analyst's word agreed with the method when it was given and is against what the method now
+    /// says. (Overruling a flag, or flagging by hand, is no conflict: that is what decisions are for.)
     #[must_use]
     pub fn conflict(&self) -> bool {
-        self.ruling.is_some_and(|r| (r == Ruling::Outlier) != (self.verdict == Verdict::Outlier))
+        let (Some(ruling), Some(said)) = (self.ruling, self.said) else { return false };
+        let wild = ruling == Ruling::Outlier;
+        wild == (said == Verdict::Outlier) && wild != (self.verdict == Verdict::Outlier)
     }
 }
 
@@ -304,14 +309,15 @@ impl Outcome {
 }
 
 fn marks(judged: &Judged, series: &Series<'_>, decisions: &Decisions) -> Vec<Mark> {
-    let decided = |(row, d): (u32, &Decision)| series.position(row as usize).map(|p| (p, d.ruling));
+    let decided = |(row, d): (u32, &Decision)| series.position(row as usize).map(|p| (p, d.ruling, d.said));
     let mut decided = decisions.iter().filter_map(decided).peekable();
     let mut marks = Vec::new();
     #[expect(clippy::cast_possible_truncation, reason = "the loader refuses files of 2^32 rows and more")]
     for (i, &verdict) in judged.verdict.iter().enumerate() {
-        let ruling = decided.next_if(|d| d.0 == i).map(|d| d.1);
-        if ruling.is_some() || matches!(verdict, Verdict::Outlier | Verdict::Suspect) {
-            marks.push(Mark { position: i as u32, verdict, ruling });
+        let decision = decided.next_if(|d| d.0 == i);
+        if decision.is_some() || matches!(verdict, Verdict::Outlier | Verdict::Suspect) {
+            let (ruling, said) = (decision.map(|d| d.1), decision.and_then(|d| d.2));
+            marks.push(Mark { position: i as u32, verdict, ruling, said });
         }
     }
     marks

@@ -67,6 +67,7 @@ struct WrittenData {
     delimiter: Option<Spanned<String>>,
     decimal_comma: Option<bool>,
     header: Option<bool>,
+    quotes: Option<bool>,
     day_first: Option<bool>,
 }
 
@@ -203,6 +204,7 @@ impl Reader<'_> {
             delimiter: data.delimiter.map(delimiter).transpose()?,
             decimal_comma: data.decimal_comma,
             header: data.header,
+            quotes: data.quotes,
             day_first: data.day_first,
             ..LoadOptions::default()
         };
@@ -232,7 +234,7 @@ impl Reader<'_> {
             if decisions.get(row).is_some() {
                 return Err(fault(self.path, line, format!("row {}: decided twice", d.row), "keep one decision"));
             }
-            decisions.set(row, Some(Decision { ruling, note: d.note.clone() }));
+            decisions.set(row, Some(Decision { ruling, note: d.note.clone(), said: None }));
             written.push(d);
         }
         let setup = Setup { method, settings, rate: channel.rate, repair };
@@ -325,8 +327,12 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
     if let Some((word, _)) = delimiter {
         line(format!("delimiter = {}", quoted(word)));
     }
-    let switches =
-        [("decimal_comma", options.decimal_comma), ("header", options.header), ("day_first", options.day_first)];
+    let switches = [
+        ("decimal_comma", options.decimal_comma),
+        ("header", options.header),
+        ("quotes", options.quotes),
+        ("day_first", options.day_first),
+    ];
     for (key, value) in switches {
         if let Some(value) = value {
             line(format!("{key} = {value}"));

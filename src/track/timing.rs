@@ -218,7 +218,7 @@ fn day_first(head: &Head, column: usize, options: &LoadOptions, path: &Path) -> 
                 printable(&head.names[column]),
                 printable(cells.first().unwrap_or(&""))
             ),
-            help: "say which (day_first), choose another time column, or write dates as 2019-01-31".into(),
+            help: "say which (--dates day-first or --dates month-first), choose another time column, or write dates as 2019-01-31".into(),
         }),
     }
 }

@@ -192,8 +192,8 @@ pub enum PromptKind {
     Jump,
     /// The value of the active knob.
     Value,
-    /// A note on the decision about the current flag.
-    Note,
+    /// A note on the decision about this row (from 0).
+    Note(u32),
 }
 
 /// Something said to the user in the footer.

@@ -237,8 +237,10 @@ fn analysed(model: &mut Model, generation: u64, plan: usize, result: crate::erro
         Ok(drawn) => {
             let first = model.channels[plan].drawn.is_none();
             files::arrange(model, plan, *drawn);
-            if first && let Some(&at) = model.channels[plan].drawn.as_ref().and_then(|d| d.positions.first()) {
-                model.channels[plan].cursor = at as usize;
+            if first && let Some(drawn) = model.channels[plan].drawn.clone() {
+                let at = drawn.outcome.outliers.first().copied().or(drawn.positions.first().map(|p| *p as usize));
+                model.channels[plan].cursor = at.unwrap_or(0);
+                remember_what_was_said(model, plan);
             }
         }
         Err(Error::Stopped) => {}
@@ -246,6 +248,21 @@ fn analysed(model: &mut Model, generation: u64, plan: usize, result: crate::erro
             let text = e.to_string().replace("\n  ", "; ");
             model.channels[plan].error = Some(text.clone());
             model.say(Tone::Error, text);
+        }
+    }
+}
+
+/// Decisions of a session that was opened were made under the method as it is now.
+fn remember_what_was_said(model: &mut Model, plan: usize) {
+    let Some(drawn) = model.channels[plan].drawn.clone() else { return };
+    let channel = &model.track.channels[model.channels[plan].channel];
+    let series = model.channels[plan].samples.series(channel, &model.track.time);
+    let decisions = &mut model.session.plans[plan].decisions;
+    for mark in drawn.outcome.marks.iter().filter(|m| m.ruling.is_some()) {
+        let row = u32::try_from(series.row(mark.position as usize)).unwrap_or(u32::MAX);
+        if let Some(decision) = decisions.get(row).cloned() {
+            let said = decision.said.or(Some(mark.verdict));
+            decisions.set(row, Some(crate::review::Decision { said, ..decision }));
         }
     }
 }

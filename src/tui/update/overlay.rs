@@ -175,7 +175,7 @@ fn type_in(model: &mut Model, mut prompt: Prompt, key: KeyEvent) -> Vec<Effect> 
                 PromptKind::Command => command::run(model, &text),
                 PromptKind::Jump => command::jump(model, &text).map(|()| Vec::new()),
                 PromptKind::Value => tune::set_value(model, &text),
-                PromptKind::Note => Ok(review::set_note(model, &text)),
+                PromptKind::Note(row) => Ok(review::set_note(model, row, &text)),
             };
             match done {
                 Ok(effects) => return effects,

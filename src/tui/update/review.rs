@@ -33,10 +33,11 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
 pub(in crate::tui) fn mark_at(model: &Model, position: usize) -> Option<Mark> {
     let series = model.series();
     let row = u32::try_from(series.row_of(position)?).ok()?;
-    let ruling = model.plan().decisions.get(row).map(|d| d.ruling);
+    let decision = model.plan().decisions.get(row);
+    let (ruling, said) = (decision.map(|d| d.ruling), decision.and_then(|d| d.said));
     let drawn = model.state().drawn.as_ref()?;
     let verdict = drawn.outcome.detection.judged.verdict.get(position).copied()?;
-    let mark = Mark { position: u32::try_from(position).ok()?, verdict, ruling };
+    let mark = Mark { position: u32::try_from(position).ok()?, verdict, ruling, said };
     state(&mark).map(|_| mark)
 }
 
@@ -93,7 +94,8 @@ fn change(model: &Model, position: usize, ruling: Option<Ruling>) -> Option<Chan
     let row = u32::try_from(model.series().row_of(position)?).ok()?;
     let before = model.plan().decisions.get(row).cloned();
     let note = before.as_ref().map(|d| d.note.clone()).unwrap_or_default();
-    let after = ruling.map(|ruling| Decision { ruling, note });
+    let said = model.state().drawn.as_ref().and_then(|d| d.outcome.detection.judged.verdict.get(position).copied());
+    let after = ruling.map(|ruling| Decision { ruling, note, said });
     (before != after).then_some(Change { row, before, after })
 }
 
@@ -155,12 +157,24 @@ fn by_hand(model: &mut Model) -> Vec<Effect> {
     effects
 }
 
+/// A note on the decision about the sample under the cursor or, since deciding goes on to the next flag, on the one
+/// made last.
 fn note(model: &mut Model) -> Vec<Effect> {
-    let cursor = model.state().cursor;
-    let row = model.series().row_of(cursor).and_then(|r| u32::try_from(r).ok());
-    let decision = row.and_then(|row| model.plan().decisions.get(row)).cloned();
-    match decision {
-        Some(decision) => prompt(model, PromptKind::Note, &decision.note),
+    let here = model.series().row_of(model.state().cursor).and_then(|r| u32::try_from(r).ok());
+    let shown = model.shown;
+    let last = match model.history.last() {
+        Some(Edit::Decide { plan, changes }) if *plan == shown => match changes.as_slice() {
+            [change] => Some(change.row),
+            _ => None,
+        },
+        _ => None,
+    };
+    let decided = |row: &u32| model.plan().decisions.get(*row).is_some();
+    match here.filter(decided).or(last.filter(decided)) {
+        Some(row) => {
+            let text = model.plan().decisions.get(row).map(|d| d.note.clone()).unwrap_or_default();
+            prompt(model, PromptKind::Note(row), &text)
+        }
         None => {
             model.say(Tone::Warning, "a note goes with a decision: a, r or o first");
             Vec::new()
@@ -168,10 +182,8 @@ fn note(model: &mut Model) -> Vec<Effect> {
     }
 }
 
-/// Puts a note on the decision about the sample under the cursor.
-pub(super) fn set_note(model: &mut Model, text: &str) -> Vec<Effect> {
-    let row = model.series().row_of(model.state().cursor).and_then(|r| u32::try_from(r).ok());
-    let Some(row) = row else { return Vec::new() };
+/// Puts a note on the decision about `row`.
+pub(super) fn set_note(model: &mut Model, row: u32, text: &str) -> Vec<Effect> {
     let Some(before) = model.plan().decisions.get(row).cloned() else { return Vec::new() };
     let after = Decision { note: text.trim().to_owned(), ..before.clone() };
     if before == after {

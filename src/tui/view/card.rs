@@ -10,6 +10,7 @@ use super::super::drawn::{Drawn, state};
 use super::super::model::Model;
 use super::super::plot::FlagState;
 use super::super::update::mark_at;
+use super::queue::ratio_text;
 use super::{clear, heading, short};
 use crate::method::{Direction, Verdict};
 use crate::session::Mark;
@@ -101,7 +102,7 @@ fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Line<
             item("±", short(*h));
         }
         if let Some(ratio) = drawn.ratio(series, i) {
-            item("ratio", format!("{ratio:+.2}"));
+            item("ratio", ratio_text(ratio));
         }
     }
     Line::from(spans)

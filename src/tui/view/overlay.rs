@@ -167,7 +167,7 @@ fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
             let knob = model.knob();
             format!("{} (now {}): ", knob.name(), value_text(&model.plan().setup, knob))
         }
-        PromptKind::Note => "note: ".to_owned(),
+        PromptKind::Note(row) => format!("note on row {}: ", row + 1),
     };
     let row = Rect { y: area.bottom() - 2, height: 1, ..area };
     clear(row, buffer);

@@ -58,7 +58,7 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
 }
 
 /// A ratio in seven columns, whatever its size.
-fn ratio_text(ratio: f64) -> String {
+pub(super) fn ratio_text(ratio: f64) -> String {
     match ratio.abs() {
         size if size < 1000.0 => format!("{ratio:+.1}"),
         size if size < 100_000.0 => format!("{ratio:+.0}"),
