@@ -3,7 +3,6 @@
 //! Adding a method: write `method/your_method.rs` with a unit struct that implements [`Method`], and add it to
 //! [`METHODS`]. The panel, `--set`, sessions, `wildpoint methods`, the README table and the contract tests follow.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -20,6 +19,7 @@ pub mod five_point;
 pub mod gesd;
 pub mod grubbs;
 pub mod hampel;
+mod judged;
 pub mod kalman;
 pub mod matched;
 pub mod mean_window;
@@ -29,13 +29,19 @@ pub mod odd_even;
 pub mod poly_window;
 pub mod predictor;
 pub mod romanovsky;
+mod segment;
 pub mod shared;
 pub mod template;
 mod trend;
 pub mod trend_wright;
 pub mod two_sided;
+mod verdict;
 mod window;
 pub mod wright;
+
+pub use judged::{Directions, Judged};
+pub use segment::{Rate, Segment, zero_scale};
+pub use verdict::{Direction, Restart, TIE, Verdict, Way, exceeds, reaches};
 
 /// Every method, in the order in which lists show them.
 pub static METHODS: &[&dyn Method] = &[
@@ -217,304 +223,4 @@ pub enum Own {
     Remove,
     /// The expected value.
     Expected,
-}
-
-/// What a method sees: the present samples of one segment, never empty.
-#[derive(Debug, Clone, Copy)]
-pub struct Segment<'a> {
-    /// Times in seconds, strictly increasing.
-    pub t: &'a [f64],
-    /// Values, finite, as many.
-    pub y: &'a [f64],
-    /// Nominal interval of the whole channel in seconds; NaN when the channel has one sample.
-    pub interval: f64,
-    /// Noise scale by the setting `sigma`, at least [`Segment::floor`]; 0 when it counts as zero (section 1 of the
-    /// methods page), and for methods without that setting.
-    pub sigma: f64,
-    /// Lower bound on any scale, by the setting `floor`; 0 when there is none.
-    pub floor: f64,
-    /// The present samples of the rate channel, over the whole record.
-    pub rate: Option<Rate<'a>>,
-}
-
-/// The present samples of a channel that measures the rate of the judged one, per second.
-#[derive(Debug, Clone, Copy)]
-pub struct Rate<'a> {
-    /// Times in seconds, strictly increasing.
-    pub t: &'a [f64],
-    /// Values, finite, as many.
-    pub y: &'a [f64],
-}
-
-impl<'a> Segment<'a> {
-    /// The segment of `series` that `range` names.
-    #[must_use]
-    pub fn of(series: &'a Series<'_>, range: &Range<usize>, scales: noise::Scales, rate: Option<Rate<'a>>) -> Self {
-        Self {
-            t: &series.t[range.clone()],
-            y: &series.y[range.clone()],
-            interval: series.interval,
-            sigma: scales.sigma,
-            floor: scales.floor,
-            rate,
-        }
-    }
-
-    /// How many samples it has.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.y.len()
-    }
-
-    /// True when it has none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.y.is_empty()
-    }
-
-    /// Samples lost just before sample `i`; 0 for the first.
-    #[must_use]
-    pub fn lost_before(&self, i: usize) -> usize {
-        if i == 0 { 0 } else { crate::track::lost_samples(self.t[i] - self.t[i - 1], self.interval) }
-    }
-
-    /// What counts as a scale of zero here: `8 * 2^-52 * max|y|`.
-    #[must_use]
-    pub fn zero(&self) -> f64 {
-        zero_scale(self.y)
-    }
-
-    /// A scale measured in this segment: taken as 0 when it is at most `zero`, and then at least the floor.
-    #[must_use]
-    #[inline]
-    pub fn bounded(&self, scale: f64, zero: f64) -> f64 {
-        if scale > zero { scale.max(self.floor) } else { self.floor }
-    }
-}
-
-/// A scale of at most this counts as zero among such values: what rounding alone leaves of an exact line.
-#[must_use]
-pub fn zero_scale(y: &[f64]) -> f64 {
-    8.0 * f64::EPSILON * y.iter().fold(0.0_f64, |m, v| m.max(v.abs()))
-}
-
-/// What is said of one sample.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Verdict {
-    /// The target can have produced it.
-    Normal,
-    /// The target cannot have produced it.
-    Outlier,
-    /// Only one direction objects: perhaps a real change of the trajectory.
-    Suspect,
-    /// Too few neighbours to judge.
-    Unchecked,
-    /// No value, or no time.
-    Missing,
-}
-
-impl Verdict {
-    /// All of them.
-    pub const ALL: [Self; 5] = [Self::Normal, Self::Outlier, Self::Suspect, Self::Unchecked, Self::Missing];
-
-    /// Its word in files and on the screen.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Normal => "normal",
-            Self::Outlier => "outlier",
-            Self::Suspect => "suspect",
-            Self::Unchecked => "unchecked",
-            Self::Missing => "missing",
-        }
-    }
-}
-
-/// What one direction of a two-directional test says of a sample.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Direction {
-    /// The extrapolation agrees.
-    Normal,
-    /// It does not.
-    Abnormal,
-    /// There was no extrapolation.
-    Unjudged,
-}
-
-impl Direction {
-    /// Its word in files and on the screen.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Normal => "normal",
-            Self::Abnormal => "abnormal",
-            Self::Unjudged => "unjudged",
-        }
-    }
-}
-
-/// Which way a test runs through the record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
-    /// With time.
-    Forward,
-    /// Against time.
-    Backward,
-}
-
-/// A model that was lost and started again: a change of the trajectory, or a patch longer than `max_run`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Restart {
-    /// Position of the first sample of the run at which the model was lost.
-    pub at: usize,
-    /// The direction it ran in.
-    pub way: Way,
-}
-
-/// What a method says of a segment: one entry per sample, in order.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Judged {
-    /// The verdicts; never `Missing`.
-    pub verdict: Vec<Verdict>,
-    /// Expected values; NaN where there is none.
-    pub expected: Vec<f64>,
-    /// Tolerances, positive; NaN where there is none (0 where the scale is zero and nothing can be flagged).
-    pub tolerance: Vec<f64>,
-    /// Scales, where the multiplier only gates: the tolerance is the multiplier times this. Empty otherwise.
-    pub scale: Vec<f64>,
-    /// Verdicts of the two directions, where the method has them. Empty otherwise.
-    pub directions: Vec<Directions>,
-    /// What the method's own repair needs to know beyond the rest, coded by the method. Empty otherwise.
-    pub repair_code: Vec<[u8; 2]>,
-    /// What the method's own repair puts in place of a sample that it flagged, where that is not the expected
-    /// value; NaN where nothing. Empty otherwise.
-    pub own: Vec<f64>,
-    /// Where models were started again.
-    pub restarts: Vec<Restart>,
-    /// What the user should know about this result, one line each.
-    pub warnings: Vec<String>,
-}
-
-/// What the two directions say of a sample; none for a direction that was not run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Directions {
-    /// With time.
-    pub forward: Option<Direction>,
-    /// Against time.
-    pub backward: Option<Direction>,
-}
-
-impl Judged {
-    /// `n` samples of which nothing can be said.
-    #[must_use]
-    pub fn unchecked(n: usize) -> Self {
-        Self {
-            verdict: vec![Verdict::Unchecked; n],
-            expected: vec![f64::NAN; n],
-            tolerance: vec![f64::NAN; n],
-            ..Self::default()
-        }
-    }
-
-    /// Verdicts from expected values and scales for a multiplier `k`: tolerance `k * scale`; a sample without an
-    /// expected value is unchecked, one with a zero scale normal.
-    #[must_use]
-    pub fn gated(y: &[f64], expected: Vec<f64>, scale: Vec<f64>, k: f64) -> Self {
-        let mut judged = Self { expected, scale, ..Self::default() };
-        judged.gate(y, k);
-        judged
-    }
-
-    /// Judges again from [`Judged::scale`] with another multiplier.
-    pub fn gate(&mut self, y: &[f64], k: f64) {
-        self.tolerance.clear();
-        self.tolerance.extend(self.scale.iter().map(|s| k * s));
-        self.verdict.clear();
-        self.verdict.extend(y.iter().zip(&self.expected).zip(&self.tolerance).map(|((&y, &p), &h)| {
-            if p.is_nan() {
-                Verdict::Unchecked
-            } else if reaches((y - p).abs(), h) {
-                Verdict::Outlier
-            } else {
-                Verdict::Normal
-            }
-        }));
-    }
-
-    /// The same scores gated with another multiplier.
-    #[must_use]
-    pub fn regated(&self, y: &[f64], k: f64) -> Self {
-        let mut judged = Self {
-            expected: self.expected.clone(),
-            scale: self.scale.clone(),
-            directions: self.directions.clone(),
-            repair_code: self.repair_code.clone(),
-            own: self.own.clone(),
-            restarts: self.restarts.clone(),
-            warnings: self.warnings.clone(),
-            ..Self::default()
-        };
-        judged.gate(y, k);
-        judged
-    }
-
-    /// The part of a channel's judgement that is about one of its segments.
-    #[must_use]
-    pub fn slice(&self, range: Range<usize>) -> Cow<'_, Self> {
-        if range == (0..self.verdict.len()) {
-            return Cow::Borrowed(self);
-        }
-        let inside = |r: &&Restart| range.contains(&r.at);
-        Cow::Owned(Self {
-            verdict: part(&self.verdict, &range),
-            expected: part(&self.expected, &range),
-            tolerance: part(&self.tolerance, &range),
-            scale: part(&self.scale, &range),
-            directions: part(&self.directions, &range),
-            repair_code: part(&self.repair_code, &range),
-            own: part(&self.own, &range),
-            restarts: self.restarts.iter().filter(inside).map(|r| Restart { at: r.at - range.start, ..*r }).collect(),
-            warnings: Vec::new(),
-        })
-    }
-
-    /// Appends the judgement of the next segment of the same channel.
-    pub fn append(&mut self, mut next: Self) {
-        let offset = self.verdict.len();
-        self.verdict.append(&mut next.verdict);
-        self.expected.append(&mut next.expected);
-        self.tolerance.append(&mut next.tolerance);
-        self.scale.append(&mut next.scale);
-        self.directions.append(&mut next.directions);
-        self.repair_code.append(&mut next.repair_code);
-        self.own.append(&mut next.own);
-        self.restarts.extend(next.restarts.into_iter().map(|r| Restart { at: r.at + offset, ..r }));
-        for warning in next.warnings {
-            if !self.warnings.contains(&warning) {
-                self.warnings.push(warning);
-            }
-        }
-    }
-}
-
-fn part<T: Clone>(all: &[T], range: &Range<usize>) -> Vec<T> {
-    all.get(range.clone()).map(<[T]>::to_vec).unwrap_or_default()
-}
-
-/// Equal to within this fraction of a limit is a tie (values on a grid sit exactly on limits; rounding must not
-/// decide).
-pub const TIE: f64 = 1e-9;
-
-/// True when `deviation` reaches `limit`: a tie reaches. Never for a limit that is zero, negative or not finite.
-#[must_use]
-#[inline]
-pub fn reaches(deviation: f64, limit: f64) -> bool {
-    limit > 0.0 && limit.is_finite() && deviation >= limit * (1.0 - TIE)
-}
-
-/// True when `deviation` exceeds `limit`: a tie does not exceed.
-#[must_use]
-#[inline]
-pub fn exceeds(deviation: f64, limit: f64) -> bool {
-    deviation > limit * (1.0 + TIE)
 }

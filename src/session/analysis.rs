@@ -8,9 +8,15 @@ use crate::error::{Error, Result};
 use crate::method::noise::{self, Scales};
 use crate::method::{Judged, Rate, Segment, Together, Verdict, judge_segments, segments};
 use crate::repair::{self, Damage, Gap};
-use crate::review::{Decision, Decisions, Ruling};
+use crate::review::{Decision, Decisions};
 use crate::stop::{Stop, Stopped};
-use crate::track::{Channel, Samples, Series, Track, lost_samples};
+use crate::track::{Channel, Samples, Series, Track};
+
+mod gaps;
+mod outcome;
+
+use gaps::{GapPlaces, gaps_to_fill};
+pub use outcome::{Counts, Fill, Mark, Outcome, Place, Run};
 
 /// What a method says of a channel, before anybody decided anything.
 #[derive(Debug, Clone)]
@@ -23,115 +29,6 @@ pub struct Detection {
     pub scales: Vec<Scales>,
     /// One entry per present sample.
     pub judged: Judged,
-}
-
-/// A sample that somebody has something to say about.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Mark {
-    /// Position among the present samples.
-    pub position: u32,
-    /// What the method says.
-    pub verdict: Verdict,
-    /// What the analyst decided, if anything.
-    pub ruling: Option<Ruling>,
-    /// What the method said then, where that is known.
-    pub said: Option<Verdict>,
-}
-
-impl Mark {
-    /// What holds: the analyst's word where there is one.
-    #[must_use]
-    pub fn effective(&self) -> Verdict {
-        self.ruling.map_or(self.verdict, Ruling::verdict)
-    }
-
-    /// True when the analyst's word agreed with the method when it was given and is against what the method now
-    /// says. (Overruling a flag, or flagging by hand, is no conflict: that is what decisions are for.)
-    #[must_use]
-    pub fn conflict(&self) -> bool {
-        let (Some(ruling), Some(said)) = (self.ruling, self.said) else { return false };
-        let wild = ruling == Ruling::Outlier;
-        wild == (said == Verdict::Outlier) && wild != (self.verdict == Verdict::Outlier)
-    }
-}
-
-/// Consecutive outliers, within a segment.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Run {
-    /// Position of the first.
-    pub start: usize,
-    /// How many.
-    pub length: usize,
-}
-
-/// A missing sample that is filled.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Fill {
-    /// Where it goes.
-    pub place: Place,
-    /// Its time in seconds.
-    pub seconds: f64,
-    /// Its value.
-    pub value: f64,
-}
-
-/// Where a filled sample goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Place {
-    /// The empty cell of this row (from 0).
-    Cell(usize),
-    /// A new row after this one, the n-th of its gap (from 0).
-    NewRow(usize, usize),
-}
-
-/// The result for one channel: the method's word, the analyst's, and the repair.
-#[derive(Debug, Clone)]
-pub struct Outcome {
-    /// What the method says.
-    pub detection: Arc<Detection>,
-    /// Outliers, suspects, and every sample that somebody decided on, by position.
-    pub marks: Vec<Mark>,
-    /// Positions of the outliers that hold, ascending.
-    pub outliers: Vec<usize>,
-    /// What takes the place of each of them; NaN where it is removed.
-    pub fixes: Vec<f64>,
-    /// The runs they form.
-    pub runs: Vec<Run>,
-    /// Missing samples that are filled, by place.
-    pub fills: Vec<Fill>,
-    /// How many of what.
-    pub counts: Counts,
-}
-
-/// How many samples of a channel are what.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
-pub struct Counts {
-    /// Rows of the file.
-    pub rows: usize,
-    /// Samples with a time and a value.
-    pub present: usize,
-    /// Rows without.
-    pub missing: usize,
-    /// Outliers that hold.
-    pub flagged: usize,
-    /// Outliers alone.
-    pub isolated: usize,
-    /// Runs of two and more.
-    pub patches: usize,
-    /// Suspects that nobody decided on.
-    pub suspects: usize,
-    /// Samples with too few neighbours to judge.
-    pub unchecked: usize,
-    /// Outliers that got another value.
-    pub repaired: usize,
-    /// Outliers whose cell stays empty.
-    pub removed: usize,
-    /// Missing samples that were filled.
-    pub filled: usize,
-    /// Decisions of the analyst.
-    pub decisions: usize,
-    /// Decisions that the method contradicts.
-    pub conflicts: usize,
 }
 
 /// Runs the method of `setup` over a channel. With `previous`, a detection of the same channel that differs in a
@@ -276,38 +173,6 @@ pub fn settle(
     Ok(Outcome { detection, marks, outliers, fixes, runs, fills, counts })
 }
 
-impl Outcome {
-    /// The mark of the sample at `position`, if somebody has something to say about it.
-    #[must_use]
-    pub fn mark(&self, position: usize) -> Option<&Mark> {
-        let at = self.marks.binary_search_by_key(&position, |m| m.position as usize).ok()?;
-        self.marks.get(at)
-    }
-
-    /// What holds for the sample at `position`.
-    #[must_use]
-    pub fn verdict(&self, position: usize) -> Verdict {
-        match self.mark(position) {
-            Some(mark) => mark.effective(),
-            None => self.detection.judged.verdict.get(position).copied().unwrap_or(Verdict::Missing),
-        }
-    }
-
-    /// What takes the place of the outlier at `position`: none when it is no outlier, NaN when it is removed.
-    #[must_use]
-    pub fn fix(&self, position: usize) -> Option<f64> {
-        self.outliers.binary_search(&position).ok().and_then(|i| self.fixes.get(i).copied())
-    }
-
-    /// The run that holds the outlier at `position`.
-    #[must_use]
-    pub fn run(&self, position: usize) -> Option<&Run> {
-        let after = self.runs.partition_point(|r| r.start <= position);
-        let run = self.runs.get(after.checked_sub(1)?)?;
-        (position < run.start + run.length).then_some(run)
-    }
-}
-
 fn marks(judged: &Judged, series: &Series<'_>, decisions: &Decisions) -> Vec<Mark> {
     let decided = |(row, d): (u32, &Decision)| series.position(row as usize).map(|p| (p, d.ruling, d.said));
     let mut decided = decisions.iter().filter_map(decided).peekable();
@@ -343,58 +208,4 @@ fn count(rows: usize, detection: &Detection, marks: &[Mark], fixes: &[f64], runs
         decisions: marks.iter().filter(|m| m.ruling.is_some()).count(),
         conflicts: marks.iter().filter(|m| m.conflict()).count(),
     }
-}
-
-/// The missing samples just before a present one.
-struct GapPlaces {
-    before: usize,
-    at: Vec<(Place, f64)>,
-}
-
-/// More new rows than this many per row of the file are a mistake in the settings (`max_gap = off`, say), not a
-/// record: such a gap is left open.
-const MOST_NEW_ROWS: usize = 4;
-
-/// The gaps inside segments that `fill_gaps` wants filled.
-fn gaps_to_fill(track: &Track, series: &Series<'_>, detection: &Detection) -> Vec<GapPlaces> {
-    let with_rows = match detection.setup.repair.word(repair::FILL_GAPS.key) {
-        "cells" => false,
-        "rows" => true,
-        _ => return Vec::new(),
-    };
-    let seconds = &track.time.seconds;
-    let row_interval = Series::new(seconds, seconds).interval;
-    let mut room = if with_rows { track.rows.saturating_mul(MOST_NEW_ROWS) } else { 0 };
-    let mut gaps = Vec::new();
-    for segment in &detection.segments {
-        for before in segment.start + 1..segment.end {
-            let mut at = Vec::new();
-            // Rows with a usable time from the present sample before the gap to the one after it.
-            let (first, last) = (series.row(before - 1), series.row(before));
-            if last == first + 1 && !with_rows {
-                continue;
-            }
-            let mut from = first;
-            for row in (first + 1..=last).filter(|&r| seconds[r].is_finite()) {
-                let step = seconds[row] - seconds[from];
-                let lost = lost_samples(step, row_interval);
-                if with_rows && lost <= room {
-                    room -= lost;
-                    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-                    at.extend((0..lost).map(|k| {
-                        let part = (k + 1) as f64 / (lost + 1) as f64;
-                        (Place::NewRow(from, k), seconds[from] + step * part)
-                    }));
-                }
-                if row < last {
-                    at.push((Place::Cell(row), seconds[row]));
-                }
-                from = row;
-            }
-            if !at.is_empty() {
-                gaps.push(GapPlaces { before, at });
-            }
-        }
-    }
-    gaps
 }

@@ -1,0 +1,136 @@
+//! What a method says of a segment.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use super::verdict::{Direction, Restart, Verdict, reaches};
+
+/// What a method says of a segment: one entry per sample, in order.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Judged {
+    /// The verdicts; never `Missing`.
+    pub verdict: Vec<Verdict>,
+    /// Expected values; NaN where there is none.
+    pub expected: Vec<f64>,
+    /// Tolerances, positive; NaN where there is none (0 where the scale is zero and nothing can be flagged).
+    pub tolerance: Vec<f64>,
+    /// Scales, where the multiplier only gates: the tolerance is the multiplier times this. Empty otherwise.
+    pub scale: Vec<f64>,
+    /// Verdicts of the two directions, where the method has them. Empty otherwise.
+    pub directions: Vec<Directions>,
+    /// What the method's own repair needs to know beyond the rest, coded by the method. Empty otherwise.
+    pub repair_code: Vec<[u8; 2]>,
+    /// What the method's own repair puts in place of a sample that it flagged, where that is not the expected
+    /// value; NaN where nothing. Empty otherwise.
+    pub own: Vec<f64>,
+    /// Where models were started again.
+    pub restarts: Vec<Restart>,
+    /// What the user should know about this result, one line each.
+    pub warnings: Vec<String>,
+}
+
+/// What the two directions say of a sample; none for a direction that was not run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Directions {
+    /// With time.
+    pub forward: Option<Direction>,
+    /// Against time.
+    pub backward: Option<Direction>,
+}
+
+impl Judged {
+    /// `n` samples of which nothing can be said.
+    #[must_use]
+    pub fn unchecked(n: usize) -> Self {
+        Self {
+            verdict: vec![Verdict::Unchecked; n],
+            expected: vec![f64::NAN; n],
+            tolerance: vec![f64::NAN; n],
+            ..Self::default()
+        }
+    }
+
+    /// Verdicts from expected values and scales for a multiplier `k`: tolerance `k * scale`; a sample without an
+    /// expected value is unchecked, one with a zero scale normal.
+    #[must_use]
+    pub fn gated(y: &[f64], expected: Vec<f64>, scale: Vec<f64>, k: f64) -> Self {
+        let mut judged = Self { expected, scale, ..Self::default() };
+        judged.gate(y, k);
+        judged
+    }
+
+    /// Judges again from [`Judged::scale`] with another multiplier.
+    pub fn gate(&mut self, y: &[f64], k: f64) {
+        self.tolerance.clear();
+        self.tolerance.extend(self.scale.iter().map(|s| k * s));
+        self.verdict.clear();
+        self.verdict.extend(y.iter().zip(&self.expected).zip(&self.tolerance).map(|((&y, &p), &h)| {
+            if p.is_nan() {
+                Verdict::Unchecked
+            } else if reaches((y - p).abs(), h) {
+                Verdict::Outlier
+            } else {
+                Verdict::Normal
+            }
+        }));
+    }
+
+    /// The same scores gated with another multiplier.
+    #[must_use]
+    pub fn regated(&self, y: &[f64], k: f64) -> Self {
+        let mut judged = Self {
+            expected: self.expected.clone(),
+            scale: self.scale.clone(),
+            directions: self.directions.clone(),
+            repair_code: self.repair_code.clone(),
+            own: self.own.clone(),
+            restarts: self.restarts.clone(),
+            warnings: self.warnings.clone(),
+            ..Self::default()
+        };
+        judged.gate(y, k);
+        judged
+    }
+
+    /// The part of a channel's judgement that is about one of its segments.
+    #[must_use]
+    pub fn slice(&self, range: Range<usize>) -> Cow<'_, Self> {
+        if range == (0..self.verdict.len()) {
+            return Cow::Borrowed(self);
+        }
+        let inside = |r: &&Restart| range.contains(&r.at);
+        Cow::Owned(Self {
+            verdict: part(&self.verdict, &range),
+            expected: part(&self.expected, &range),
+            tolerance: part(&self.tolerance, &range),
+            scale: part(&self.scale, &range),
+            directions: part(&self.directions, &range),
+            repair_code: part(&self.repair_code, &range),
+            own: part(&self.own, &range),
+            restarts: self.restarts.iter().filter(inside).map(|r| Restart { at: r.at - range.start, ..*r }).collect(),
+            warnings: Vec::new(),
+        })
+    }
+
+    /// Appends the judgement of the next segment of the same channel.
+    pub fn append(&mut self, mut next: Self) {
+        let offset = self.verdict.len();
+        self.verdict.append(&mut next.verdict);
+        self.expected.append(&mut next.expected);
+        self.tolerance.append(&mut next.tolerance);
+        self.scale.append(&mut next.scale);
+        self.directions.append(&mut next.directions);
+        self.repair_code.append(&mut next.repair_code);
+        self.own.append(&mut next.own);
+        self.restarts.extend(next.restarts.into_iter().map(|r| Restart { at: r.at + offset, ..r }));
+        for warning in next.warnings {
+            if !self.warnings.contains(&warning) {
+                self.warnings.push(warning);
+            }
+        }
+    }
+}
+
+fn part<T: Clone>(all: &[T], range: &Range<usize>) -> Vec<T> {
+    all.get(range.clone()).map(<[T]>::to_vec).unwrap_or_default()
+}

@@ -1,0 +1,290 @@
+//! Reading a session file: what is not understood is an error that names key and line.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::Path;
+
+use serde::Deserialize;
+use toml::{Spanned, Table};
+
+use super::{DELIMITERS, FORMAT};
+use crate::error::{Error, Result};
+use crate::param::{Kind, Param, Settings, Value, find};
+use crate::repair;
+use crate::review::{Decision, Decisions, Ruling};
+use crate::session::{Data, Plan, Recorded, Session, Setup, folder_of, method_of_id};
+use crate::track::{LoadOptions, Source};
+
+/// A session file larger than this is none.
+const LARGEST: u64 = 64 << 20;
+
+/// A decision as the file has it, with the texts of the input that it was made on.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::session) struct WrittenDecision {
+    /// Data row from 1.
+    pub(in crate::session) row: u32,
+    /// The text of the time cell.
+    #[serde(default)]
+    pub(in crate::session) time: String,
+    /// The text of the value cell.
+    pub(in crate::session) value: String,
+    verdict: String,
+    #[serde(default)]
+    note: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    #[serde(rename = "format")]
+    _format: i64,
+    #[serde(rename = "program", default)]
+    _program: String,
+    data: WrittenData,
+    #[serde(default)]
+    channel: Vec<Spanned<WrittenChannel>>,
+    result: Option<WrittenResult>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenData {
+    file: String,
+    sha256: String,
+    rows: usize,
+    #[serde(default)]
+    row_check: Option<String>,
+    /// From here on: how the record is loaded, where the user had to say it.
+    time: Option<String>,
+    truth: Option<String>,
+    #[serde(default)]
+    missing: Vec<String>,
+    delimiter: Option<Spanned<String>>,
+    decimal_comma: Option<bool>,
+    header: Option<bool>,
+    quotes: Option<bool>,
+    day_first: Option<bool>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenChannel {
+    name: String,
+    method: Spanned<String>,
+    #[serde(default)]
+    rate: Option<String>,
+    #[serde(default)]
+    settings: BTreeMap<String, Spanned<toml::Value>>,
+    #[serde(default)]
+    repair: BTreeMap<String, Spanned<toml::Value>>,
+    #[serde(default)]
+    decisions: Vec<Spanned<WrittenDecision>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenResult {
+    flagged: usize,
+    clean_sha256: String,
+}
+
+/// A session file as read, with the texts its decisions were made on (for each plan, in the order of its rows).
+pub(in crate::session) struct Read {
+    pub(in crate::session) session: Session,
+    pub(in crate::session) texts: Vec<Vec<WrittenDecision>>,
+}
+
+/// Reads a session file. The record itself is not opened.
+///
+/// # Errors
+/// [`Error::Session`] naming key and line for what is not understood; [`Error::Io`].
+pub fn read(path: &Path) -> Result<Session> {
+    read_with_texts(path).map(|r| r.session)
+}
+
+pub(in crate::session) fn read_with_texts(path: &Path) -> Result<Read> {
+    let size = std::fs::metadata(path).map_err(Error::io("read", path))?.len();
+    if size > LARGEST {
+        return Err(fault(path, None, format!("{size} bytes are too many for a session"), "is it the right file?"));
+    }
+    let text = std::fs::read_to_string(path).map_err(Error::io("read", path))?;
+    parse(path, &text)
+}
+
+fn parse(path: &Path, text: &str) -> Result<Read> {
+    let at = |span: Option<Range<usize>>| span.map(|s| line_of(text, s.start));
+    let broken = |e: toml::de::Error| {
+        fault(path, at(e.span()), e.message().to_owned(), "correct the line, or save the session again")
+    };
+    let loose: Table = toml::from_str(text).map_err(broken)?;
+    match loose.get("format").and_then(toml::Value::as_integer) {
+        Some(FORMAT) => {}
+        Some(newer) if newer > FORMAT => {
+            let what = format!("format = {newer}: this program reads format {FORMAT}");
+            return Err(fault(
+                path,
+                key_line(text, "format"),
+                what,
+                "use the version of wildpoint that wrote it, or a later one",
+            ));
+        }
+        _ => {
+            let what = "format: a session file starts with `format = 1`".to_owned();
+            return Err(fault(path, key_line(text, "format"), what, "is it the right file?"));
+        }
+    }
+    let document: Document = toml::from_str(text).map_err(broken)?;
+    let reader = Reader { path, text };
+    let mut plans = Vec::new();
+    let mut texts = Vec::new();
+    for channel in document.channel {
+        let line = line_of(text, channel.span().start);
+        let (plan, written) = reader.plan(channel.into_inner())?;
+        if plans.iter().any(|p: &Plan| p.channel == plan.channel) {
+            return Err(fault(
+                path,
+                Some(line),
+                format!("{}: this channel comes twice", plan.channel),
+                "keep one of them",
+            ));
+        }
+        plans.push(plan);
+        texts.push(written);
+    }
+    if plans.is_empty() {
+        return Err(fault(
+            path,
+            None,
+            "no [[channel]]: nothing to do".into(),
+            "add a [[channel]] with name and method",
+        ));
+    }
+    let data = reader.data(document.data)?;
+    let result = document.result.map(|r| Recorded { flagged: r.flagged, clean_sha256: r.clean_sha256 });
+    Ok(Read { session: Session { data, plans, result }, texts })
+}
+
+struct Reader<'a> {
+    path: &'a Path,
+    text: &'a str,
+}
+
+impl Reader<'_> {
+    fn data(&self, data: WrittenData) -> Result<Data> {
+        let delimiter = |word: Spanned<String>| {
+            let known = DELIMITERS.iter().find(|d| d.0 == word.get_ref()).map(|d| d.1);
+            known.ok_or_else(|| {
+                let words = DELIMITERS.map(|d| d.0).join(", ");
+                let what = format!("delimiter = {:?}", word.get_ref());
+                fault(self.path, self.line(word.span()), what, &format!("delimiters are {words}"))
+            })
+        };
+        let source = match Source::built_in(&data.file) {
+            Some(source) => source,
+            None => Source::File(folder_of(self.path).join(data.file)),
+        };
+        let options = LoadOptions {
+            time: data.time,
+            truth: data.truth,
+            missing: data.missing,
+            delimiter: data.delimiter.map(delimiter).transpose()?,
+            decimal_comma: data.decimal_comma,
+            header: data.header,
+            quotes: data.quotes,
+            day_first: data.day_first,
+            ..LoadOptions::default()
+        };
+        Ok(Data { source, sha256: data.sha256, rows: data.rows, row_check: data.row_check, options })
+    }
+
+    fn plan(&self, channel: WrittenChannel) -> Result<(Plan, Vec<WrittenDecision>)> {
+        let method_line = self.line(channel.method.span());
+        let method = method_of_id(channel.method.get_ref()).map_err(|e| self.wrap(method_line, e))?;
+        let about = method.about();
+        let mut settings = Settings::defaults(about.params);
+        self.fill(&mut settings, about.id, about.params, channel.settings)?;
+        let mut repair = Settings::defaults(repair::PARAMS);
+        self.fill(&mut repair, "repair", repair::PARAMS, channel.repair)?;
+        let mut decisions = Decisions::default();
+        let mut written = Vec::new();
+        for decision in channel.decisions {
+            let line = self.line(decision.span());
+            let d = decision.into_inner();
+            let ruling = Ruling::of_word(&d.verdict).ok_or_else(|| {
+                fault(self.path, line, format!("verdict = {:?}", d.verdict), "a decision is `normal` or `outlier`")
+            })?;
+            let row = d
+                .row
+                .checked_sub(1)
+                .ok_or_else(|| fault(self.path, line, "row = 0".into(), "rows count from 1, the first line of data"))?;
+            if decisions.get(row).is_some() {
+                return Err(fault(self.path, line, format!("row {}: decided twice", d.row), "keep one decision"));
+            }
+            decisions.set(row, Some(Decision { ruling, note: d.note.clone(), said: None }));
+            written.push(d);
+        }
+        let setup = Setup { method, settings, rate: channel.rate, repair };
+        Ok((Plan { channel: channel.name, setup, decisions }, written))
+    }
+
+    fn fill(
+        &self,
+        settings: &mut Settings,
+        owner: &str,
+        params: &'static [Param],
+        values: BTreeMap<String, Spanned<toml::Value>>,
+    ) -> Result<()> {
+        for (key, value) in values {
+            let line = self.line(value.span());
+            find(params, owner, &key)
+                .and_then(|p| value_of(p, value.get_ref()))
+                .and_then(|v| settings.set(owner, &key, v))
+                .map_err(|e| self.wrap(line, e))?;
+        }
+        Ok(())
+    }
+
+    fn line(&self, span: Range<usize>) -> Option<usize> {
+        Some(line_of(self.text, span.start))
+    }
+
+    /// A complaint about a value, with the line it stands on.
+    fn wrap(&self, line: Option<usize>, e: Error) -> Error {
+        match e {
+            Error::Usage { what, help } => fault(self.path, line, what, &help),
+            other => other,
+        }
+    }
+}
+
+/// The value as the parameter takes it: a word only where it has words, a number only where it has numbers.
+fn value_of(param: &Param, value: &toml::Value) -> Result<Value> {
+    let words: &[&str] = match param.kind {
+        Kind::Choice(words) | Kind::RealOr { words, .. } => words,
+        Kind::WholeOrOff { .. } => &["off"],
+        Kind::Whole { .. } | Kind::Real { .. } | Kind::Switch => &[],
+    };
+    match value {
+        toml::Value::Integer(n) => param.accept(Value::Whole(*n)),
+        toml::Value::Float(x) => param.accept(Value::Real(*x)),
+        toml::Value::Boolean(b) => param.accept(Value::Switch(*b)),
+        toml::Value::String(s) if words.contains(&s.as_str()) => param.parse(s),
+        other => Err(Error::usage(
+            format!("{} = {other}: not a legal value", param.key),
+            format!("{} takes {}", param.key, param.range()),
+        )),
+    }
+}
+
+fn line_of(text: &str, offset: usize) -> usize {
+    1 + text.bytes().take(offset).filter(|b| *b == b'\n').count()
+}
+
+fn key_line(text: &str, key: &str) -> Option<usize> {
+    text.lines().position(|l| l.trim_start().starts_with(key)).map(|i| i + 1)
+}
+
+fn fault(path: &Path, line: Option<usize>, what: String, help: &str) -> Error {
+    Error::Session { path: path.to_path_buf(), line, what, help: help.to_owned() }
+}

@@ -1,0 +1,129 @@
+//! Writing a session file.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use super::{DELIMITERS, FORMAT};
+use crate::param::{Param, Settings, Value};
+use crate::session::{Session, folder_of};
+use crate::track::Source;
+
+/// The session file for a session that lies at `path`. `texts` gives, for each plan, the texts of time and value of
+/// each decided row, in the order of the rows.
+#[must_use]
+pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -> String {
+    let mut out = String::new();
+    let mut line = |text: String| {
+        out.push_str(&text);
+        out.push('\n');
+    };
+    line(format!("format = {FORMAT}"));
+    line(format!("program = {}", quoted(concat!("wildpoint ", env!("CARGO_PKG_VERSION")))));
+    line("\n[data]".into());
+    line(format!("file = {}", quoted(&reference(&session.data.source, path))));
+    line(format!("sha256 = {}", quoted(&session.data.sha256)));
+    line(format!("rows = {}", session.data.rows));
+    let options = &session.data.options;
+    for (key, value) in [("time", &options.time), ("truth", &options.truth), ("row_check", &session.data.row_check)] {
+        if let Some(value) = value {
+            line(format!("{key} = {}", quoted(value)));
+        }
+    }
+    let delimiter = options.delimiter.and_then(|d| DELIMITERS.iter().find(|x| x.1 == d));
+    if let Some((word, _)) = delimiter {
+        line(format!("delimiter = {}", quoted(word)));
+    }
+    let switches = [
+        ("decimal_comma", options.decimal_comma),
+        ("header", options.header),
+        ("quotes", options.quotes),
+        ("day_first", options.day_first),
+    ];
+    for (key, value) in switches {
+        if let Some(value) = value {
+            line(format!("{key} = {value}"));
+        }
+    }
+    if !options.missing.is_empty() {
+        let markers: Vec<String> = options.missing.iter().map(|m| quoted(m)).collect();
+        line(format!("missing = [{}]", markers.join(", ")));
+    }
+    for (plan, texts) in session.plans.iter().zip(texts) {
+        line("\n[[channel]]".into());
+        line(format!("name = {}", quoted(&plan.channel)));
+        line(format!("method = {}", quoted(plan.setup.method.about().id)));
+        if let Some(rate) = &plan.setup.rate {
+            line(format!("rate = {}", quoted(rate)));
+        }
+        line(format!("settings = {}", inline(&plan.setup.settings)));
+        line(format!("repair = {}", inline(&plan.setup.repair)));
+        if plan.decisions.is_empty() {
+            continue;
+        }
+        line("decisions = [".into());
+        for ((row, decision), (time, value)) in plan.decisions.iter().zip(texts) {
+            let mut text = format!("  {{ row = {}", row + 1);
+            let fields = [("time", time.as_str()), ("value", value), ("verdict", decision.ruling.verdict().word())];
+            for (key, value) in fields {
+                let _ = write!(text, ", {key} = {}", quoted(value));
+            }
+            if !decision.note.is_empty() {
+                let _ = write!(text, ", note = {}", quoted(&decision.note));
+            }
+            line(text + " },");
+        }
+        line("]".into());
+    }
+    if let Some(result) = &session.result {
+        line("\n[result]".into());
+        line(format!("flagged = {}", result.flagged));
+        line(format!("clean_sha256 = {}", quoted(&result.clean_sha256)));
+    }
+    out
+}
+
+/// How a session at `session` names its record.
+fn reference(source: &Source, session: &Path) -> String {
+    let file = match source {
+        Source::BuiltIn { name, .. } => return (*name).to_owned(),
+        Source::File(file) => file,
+    };
+    let whole = |p: &Path| std::path::absolute(p).unwrap_or_else(|_| p.to_path_buf());
+    let (from, to) = (whole(&folder_of(session)), whole(file));
+    let from = std::fs::canonicalize(&from).unwrap_or(from);
+    let to = std::fs::canonicalize(&to).unwrap_or(to);
+    let common = from.components().zip(to.components()).take_while(|(a, b)| a == b).count();
+    let mut path = PathBuf::new();
+    from.components().skip(common).for_each(|_| path.push(".."));
+    to.components().skip(common).for_each(|c| path.push(c));
+    path.to_string_lossy().replace('\\', "/")
+}
+
+fn inline(settings: &Settings) -> String {
+    let one = |(p, v): (&Param, Value)| match v {
+        Value::Word(word) => format!("{} = {}", p.key, quoted(word)),
+        other => format!("{} = {other}", p.key),
+    };
+    format!("{{ {} }}", settings.iter().map(one).collect::<Vec<_>>().join(", "))
+}
+
+fn quoted(text: &str) -> String {
+    // A basic string, so that every text stays on one line of its own.
+    let mut out = String::from('"');
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => {
+                out.push('\\');
+                out.push(c);
+            }
+            '\n' => out.push_str("\\n"),
+            '\t' => out.push_str("\\t"),
+            c if c.is_control() => {
+                let _ = write!(out, "\\u{:04X}", u32::from(c));
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
