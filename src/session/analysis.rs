@@ -146,8 +146,8 @@ pub fn settle(
         stop.check()?;
         let from = outliers.partition_point(|&i| i < range.start);
         let to = outliers.partition_point(|&i| i < range.end);
-        let inside = gaps.iter().filter(|g| range.start < g.before && g.before < range.end);
-        let inside: Vec<&GapPlaces> = inside.collect();
+        let gap = |limit: usize| gaps.partition_point(|g| g.before < limit);
+        let inside: &[GapPlaces] = &gaps[gap(range.start + 1)..gap(range.end)];
         if from == to && inside.is_empty() {
             continue;
         }
