@@ -35,27 +35,39 @@ impl Drawn {
     /// Arranges `outcome` of `series`.
     #[must_use]
     pub fn new(outcome: Outcome, series: &Series<'_>) -> Self {
-        let mut hidden = vec![false; series.len()];
+        let n = series.len();
+        let mut hidden = vec![false; n];
         outcome.outliers.iter().for_each(|&i| hidden[i] = true);
-        let kept = Pyramid::build(&series.y, |i| hidden[i]);
-        let ratios = Pyramid::build_spans(series.len(), |i| ratio(&outcome, series, i).map_or(Span::EMPTY, Span::at));
         let positions = outcome.marks.iter().map(|m| m.position).collect();
+        let empty = Pyramid::default;
         let mut drawn = Self {
             outcome: Arc::new(outcome),
             hidden,
-            kept,
-            ratios,
-            expected: Pyramid::default(),
-            band: Pyramid::default(),
-            repaired: Pyramid::default(),
-            after: Pyramid::default(),
+            kept: empty(),
+            ratios: empty(),
+            expected: empty(),
+            band: empty(),
+            repaired: empty(),
+            after: empty(),
             positions,
         };
-        let n = series.len();
-        drawn.expected = Pyramid::build_spans(n, |i| drawn.expected_span(i));
-        drawn.band = Pyramid::build_spans(n, |i| drawn.band_span(i));
-        drawn.repaired = Pyramid::build_spans(n, |i| drawn.repaired_span(i));
-        drawn.after = Pyramid::build_spans(n, |i| drawn.after_span(series, i));
+        let of = &drawn;
+        let ((kept, ratios), ((expected, band), (repaired, after))) = rayon::join(
+            || {
+                let kept = Pyramid::build(&series.y, |i| of.hidden[i]);
+                let ratios = Pyramid::build_spans(n, |i| ratio(&of.outcome, series, i).map_or(Span::EMPTY, Span::at));
+                (kept, ratios)
+            },
+            || {
+                let expected = Pyramid::build_spans(n, |i| of.expected_span(i));
+                let band = Pyramid::build_spans(n, |i| of.band_span(i));
+                let repaired = Pyramid::build_spans(n, |i| of.repaired_span(i));
+                let after = Pyramid::build_spans(n, |i| of.after_span(series, i));
+                ((expected, band), (repaired, after))
+            },
+        );
+        (drawn.kept, drawn.ratios, drawn.expected) = (kept, ratios, expected);
+        (drawn.band, drawn.repaired, drawn.after) = (band, repaired, after);
         drawn
     }
 

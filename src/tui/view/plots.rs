@@ -1,5 +1,7 @@
 //! The plots: overview, trace, residual.
 
+use std::cell::OnceCell;
+
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Span as Words;
@@ -24,6 +26,8 @@ pub(super) struct Plots<'a> {
     no_flags: Flags,
     /// The samples while there is no result yet.
     plain: Pyramid,
+    /// The samples in view, reduced for the trace; the panels below it show the same columns.
+    in_view: OnceCell<Columns>,
 }
 
 impl<'a> Plots<'a> {
@@ -31,7 +35,7 @@ impl<'a> Plots<'a> {
         let series = model.series();
         let drawn = model.state().drawn.as_deref();
         let plain = if drawn.is_none() { Pyramid::build(&series.y, |_| false) } else { Pyramid::default() };
-        Self { model, series, drawn, no_flags: Flags::default(), plain }
+        Self { model, series, drawn, no_flags: Flags::default(), plain, in_view: OnceCell::new() }
     }
 
     fn axis(&self) -> Axis<'_> {
@@ -107,23 +111,28 @@ impl<'a> Plots<'a> {
         let rail_row = take_bottom(&mut body);
         let plot = TracePlot::plot_area(body);
         let view = state.view;
-        let columns = self.with_trace(state.layers, |trace| {
-            let y = self.y_fit().range(trace, view);
-            Columns::new(trace, Grid { view, y, width: plot.width, height: body.height })
+        let columns = self.in_view.get_or_init(|| {
+            self.with_trace(state.layers, |trace| {
+                let y = self.y_fit().range(trace, view);
+                Columns::new(trace, Grid { view, y, width: plot.width, height: body.height })
+            })
         });
-        // The rail never goes away, not even while the record is shown as it will be after repair.
-        let rail_columns = self.with_trace(Layers::Raw, |trace| {
-            Columns::new(trace, Grid { view, y: columns.grid().y, width: plot.width, height: 1 })
+        // The rail never goes away, not even while the record is shown as it will be after repair, without its flags.
+        let with_flags = (state.layers == Layers::After).then(|| {
+            self.with_trace(Layers::Raw, |trace| {
+                Columns::new(trace, Grid { view, y: columns.grid().y, width: plot.width, height: 1 })
+            })
         });
         let cursor = self.series.y.get(state.cursor).map(|&y| Cursor { position: state.cursor, y });
         let widget = TracePlot { columns: &columns, theme, glyphs, layers: plot::Layers::ALL, cursor, selection: None };
         let note = widget.y_note();
-        let words = self.trace_words(&columns, &note);
+        let words = self.trace_words(columns, &note);
         let words: Vec<Words<'_>> = words.iter().map(|w| Words::styled(w.as_str(), theme.dim)).collect();
         heading(model, Panel::Trace, &words, head, buffer);
         widget.render(body, buffer);
         let cursor = Some(state.cursor);
-        FlagRail { columns: &rail_columns, theme, glyphs, label: "flags", cursor }.render(rail_row, buffer);
+        FlagRail { columns: with_flags.as_ref().unwrap_or(columns), theme, glyphs, label: "flags", cursor }
+            .render(rail_row, buffer);
         if let Some(row) = axis_row {
             self.axis_labels(row, view, buffer);
         }
@@ -195,15 +204,17 @@ impl<'a> Plots<'a> {
         let body = Rect { y: area.y + head.height, height: area.height - head.height, ..area };
         let view = state.view;
         let plot = TracePlot::plot_area(body);
-        let columns = self.with_trace(Layers::Raw, |trace| {
-            Columns::new(trace, Grid { view, y: (0.0, 1.0), width: plot.width, height: body.height })
+        let columns = self.in_view.get_or_init(|| {
+            self.with_trace(Layers::Raw, |trace| {
+                Columns::new(trace, Grid { view, y: (0.0, 1.0), width: plot.width, height: body.height })
+            })
         });
         let nothing = Pyramid::default();
         let pyramid = self.drawn.map_or(&nothing, |d| &d.ratios);
         let ratio = |i: usize| self.drawn.and_then(|d| d.ratio(&self.series, i));
         let cursor = Some(state.cursor);
         let top = ResidualPlot::TOP;
-        let widget = ResidualPlot { columns: &columns, ratio: &ratio, pyramid, top, theme, glyphs, cursor };
+        let widget = ResidualPlot { columns, ratio: &ratio, pyramid, top, theme, glyphs, cursor };
         let what = if widget.is_signed() {
             "in tolerances, flagged from ±1"
         } else {
