@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use tui_input::Input;
 
 use super::action::Panel;
@@ -233,7 +234,7 @@ impl Model {
     /// A workbench on `track` with `session`, whose plans cover channels of the track.
     #[must_use]
     pub fn new(track: Arc<Track>, session: Session, file: Option<PathBuf>, theme: Theme, glyphs: Glyphs) -> Self {
-        let channels = session.plans.iter().map(|plan| ChannelState::new(&track, plan, file.is_some())).collect();
+        let channels = session.plans.par_iter().map(|plan| ChannelState::new(&track, plan, file.is_some())).collect();
         Self {
             track,
             session,

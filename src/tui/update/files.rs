@@ -84,6 +84,10 @@ pub(super) fn arrange(model: &mut Model, plan: usize, drawn: Drawn) {
     state.drawn = Some(Arc::new(drawn));
     state.stale = false;
     state.error = None;
+    // What stood in the way no longer does.
+    if model.toast.as_ref().is_some_and(|t| t.tone == Tone::Error) {
+        model.toast = None;
+    }
     queue(model, plan);
 }
 

@@ -152,7 +152,8 @@ pub(super) fn use_method(model: &mut Model, method: &'static dyn Method) -> Vec<
     model.state_mut().knob = wanted(active).or_else(|| wanted("k")).or_else(|| wanted("c")).unwrap_or(0);
     model.say(Tone::Done, format!("{id}: {} · u undo", method.about().name));
     if method.about().needs_rate && model.plan().setup.rate.is_none() {
-        return picker(model, super::PickerKind::Rate);
+        // What it says without one stays on the screen when the list is left.
+        picker(model, super::PickerKind::Rate);
     }
     effects
 }
