@@ -50,7 +50,10 @@ pub fn run(command: Command, out: &mut dyn Write) -> Result<Ending> {
             print(out, &(experiment.csv)(seed.unwrap_or(experiment.seed)))
         }
         Command::Completions { shell } => {
-            clap_complete::generate(shell, &mut Cli::command(), "wildpoint", &mut &mut *out);
+            // Generated first and printed then: the generator panics where it cannot write, at a closed pipe say.
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "wildpoint", &mut script);
+            out.write_all(&script).map_err(Error::io("write", "standard output"))?;
             Ok(Ending::Done)
         }
         Command::Man => {
