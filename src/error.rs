@@ -9,7 +9,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A file or folder could not be read or written.
-    #[error("{}: cannot {action}: {source}", path.display())]
+    #[error("{}: cannot {action}: {source}\n  {}", path.display(), way_out(action, source.kind()))]
     Io {
         /// What was being done: `read`, `write`, …
         action: &'static str,
@@ -84,6 +84,19 @@ impl Error {
     /// An [`Error::Input`] without a line.
     pub fn input(path: impl AsRef<Path>, what: impl Into<String>, help: impl Into<String>) -> Self {
         Self::Input { path: path.as_ref().to_path_buf(), line: None, what: what.into(), help: help.into() }
+    }
+}
+
+/// What helps against a refusal of the operating system.
+fn way_out(action: &str, kind: std::io::ErrorKind) -> &'static str {
+    use std::io::ErrorKind as Kind;
+    match kind {
+        Kind::NotFound if action == "read" => "check its name; it is looked for from the current folder",
+        Kind::NotFound => "make the folder first, or name one that is there",
+        Kind::PermissionDenied => "change its permissions, or name another place",
+        Kind::StorageFull | Kind::QuotaExceeded => "make room, or name a place on another disk",
+        Kind::ReadOnlyFilesystem => "name a place that can be written to",
+        _ => "see to what the system says, then try again",
     }
 }
 
