@@ -318,7 +318,7 @@ impl Shared {
             (MAX_GAP.key, &self.max_gap),
         ];
         if let Some(id) = &self.repair {
-            setup.repair.set_text("repair", repair::METHOD.key, id)?;
+            setup.repair.set_text("repair", repair::METHOD.key, repair::find(id)?.id)?;
         }
         for (key, value) in named {
             if let Some(value) = value {

@@ -3,6 +3,7 @@
 //! Detection and repair are separate choices. Adding a repair: a row in [`REPAIRS`] and, where it interpolates, a
 //! file `repair/your_repair.rs`.
 
+use crate::error::{Error, Result, nearest};
 use crate::param::{Kind, Param, Settings, Value, always};
 
 mod gaps;
@@ -153,6 +154,17 @@ pub const REPAIR_POINTS: Param = Param {
 
 /// The knobs of repair, in the order of the panel and the session file.
 pub static PARAMS: &[Param] = &[METHOD, MAX_FILL, FILL_GAPS, ANCHORS, REPAIR_ORDER, REPAIR_POINTS];
+
+/// The repair with this id.
+///
+/// # Errors
+/// [`Error::Usage`] with the repairs there are and the nearest.
+pub fn find(id: &str) -> Result<&'static Repair> {
+    REPAIRS.iter().find(|r| r.id == id).ok_or_else(|| {
+        let hint = nearest(id, IDS.iter().copied()).map_or(String::new(), |k| format!("did you mean {k}? "));
+        Error::usage(format!("{id}: there is no such repair"), format!("{hint}repairs: {}", IDS.join(", ")))
+    })
+}
 
 /// The repair that these settings choose.
 #[must_use]

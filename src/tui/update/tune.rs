@@ -179,7 +179,8 @@ pub(super) fn other_preset(model: &mut Model) -> Vec<Effect> {
 /// Chooses another repair.
 pub(super) fn set_repair(model: &mut Model, id: &str) -> Result<Vec<Effect>, String> {
     let mut after = model.plan().setup.clone();
-    after.repair.set_text("repair", crate::repair::METHOD.key, id).map_err(|e| e.to_string())?;
+    let found = crate::repair::find(id).map_err(|e| e.to_string())?;
+    after.repair.set_text("repair", crate::repair::METHOD.key, found.id).map_err(|e| e.to_string())?;
     let effects = set_up(model, after);
     model.say(Tone::Done, format!("repair {id} · u undo"));
     Ok(effects)
