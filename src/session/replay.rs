@@ -48,7 +48,7 @@ pub fn open_all(path: &Path, accept_changed: bool) -> Result<Opened> {
 }
 
 fn open_with(path: &Path, accept_changed: bool, only_planned: bool) -> Result<Opened> {
-    let Read { mut session, texts } = read_with_texts(path)?;
+    let Read { mut session, texts, rows_line } = read_with_texts(path)?;
     let mut channels: Vec<String> = Vec::new();
     if only_planned {
         channels.extend(session.plans.iter().map(|p| p.channel.clone()));
@@ -69,10 +69,17 @@ fn open_with(path: &Path, accept_changed: bool, only_planned: bool) -> Result<Op
             return Err(Error::Changed { path: file_of(&session.data.source), what });
         }
         notes.push(format!("the data are not those of the session: {what}"));
+    } else if session.data.rows != track.rows {
+        return Err(Error::Session {
+            path: path.to_path_buf(),
+            line: rows_line,
+            what: format!("rows = {}: the record has {}", session.data.rows, track.rows),
+            help: "restore the session file, or save the session again".into(),
+        });
     } else if let Some(misfit) = misfits.first() {
         return Err(Error::Session {
             path: path.to_path_buf(),
-            line: None,
+            line: misfit.line,
             what: misfit.what.clone(),
             help: "restore the session file, or take the decision out of it".into(),
         });
@@ -90,6 +97,7 @@ fn open_with(path: &Path, accept_changed: bool, only_planned: bool) -> Result<Op
 struct Misfit {
     plan: usize,
     row: u32,
+    line: Option<usize>,
     what: String,
 }
 
@@ -108,7 +116,7 @@ fn misfits(track: &Track, plans: &[Plan], texts: &[Vec<WrittenDecision>]) -> Res
     }
     let mut misfit = |plan: usize, text: &WrittenDecision, what: String| {
         let what = format!("row {} of {}: {what}", text.row, plans[plan].channel);
-        misfits.push(Misfit { plan, row: text.row - 1, what });
+        misfits.push(Misfit { plan, row: text.row - 1, line: text.line, what });
     };
     for (_, beyond) in wanted.range(track.rows..) {
         for (plan, _, text) in beyond {

@@ -32,6 +32,9 @@ pub(in crate::session) struct WrittenDecision {
     verdict: String,
     #[serde(default)]
     note: String,
+    /// The line of the session file it stands on.
+    #[serde(skip)]
+    pub(in crate::session) line: Option<usize>,
 }
 
 #[derive(Deserialize)]
@@ -52,7 +55,7 @@ struct Document {
 struct WrittenData {
     file: String,
     sha256: String,
-    rows: usize,
+    rows: Spanned<usize>,
     #[serde(default)]
     row_check: Option<String>,
     /// From here on: how the record is loaded, where the user had to say it.
@@ -93,6 +96,8 @@ struct WrittenResult {
 pub(in crate::session) struct Read {
     pub(in crate::session) session: Session,
     pub(in crate::session) texts: Vec<Vec<WrittenDecision>>,
+    /// The line that gives the number of rows.
+    pub(in crate::session) rows_line: Option<usize>,
 }
 
 /// Reads a session file. The record itself is not opened.
@@ -115,7 +120,8 @@ pub(in crate::session) fn read_with_texts(path: &Path) -> Result<Read> {
 fn parse(path: &Path, text: &str) -> Result<Read> {
     let at = |span: Option<Range<usize>>| span.map(|s| line_of(text, s.start));
     let broken = |e: toml::de::Error| {
-        fault(path, at(e.span()), e.message().to_owned(), "correct the line, or save the session again")
+        let what = format!("{}{}", key_before(text, e.span()), plain(e.message()));
+        fault(path, at(e.span()), what, "correct the line, or save the session again")
     };
     let loose: Table = toml::from_str(text).map_err(broken)?;
     match loose.get("format").and_then(toml::Value::as_integer) {
@@ -160,9 +166,10 @@ fn parse(path: &Path, text: &str) -> Result<Read> {
             "add a [[channel]] with name and method",
         ));
     }
+    let rows_line = reader.line(document.data.rows.span());
     let data = reader.data(document.data)?;
     let result = document.result.map(|r| Recorded { flagged: r.flagged, clean_sha256: r.clean_sha256 });
-    Ok(Read { session: Session { data, plans, result }, texts })
+    Ok(Read { session: Session { data, plans, result }, texts, rows_line })
 }
 
 struct Reader<'a> {
@@ -195,7 +202,7 @@ impl Reader<'_> {
             day_first: data.day_first,
             ..LoadOptions::default()
         };
-        Ok(Data { source, sha256: data.sha256, rows: data.rows, row_check: data.row_check, options })
+        Ok(Data { source, sha256: data.sha256, rows: data.rows.into_inner(), row_check: data.row_check, options })
     }
 
     fn plan(&self, channel: WrittenChannel) -> Result<(Plan, Vec<WrittenDecision>)> {
@@ -210,7 +217,7 @@ impl Reader<'_> {
         let mut written = Vec::new();
         for decision in channel.decisions {
             let line = self.line(decision.span());
-            let d = decision.into_inner();
+            let d = WrittenDecision { line, ..decision.into_inner() };
             let ruling = Ruling::of_word(&d.verdict).ok_or_else(|| {
                 fault(self.path, line, format!("verdict = {:?}", d.verdict), "a decision is `normal` or `outlier`")
             })?;
@@ -279,6 +286,23 @@ fn value_of(param: &Param, value: &toml::Value) -> Result<Value> {
 
 fn line_of(text: &str, offset: usize) -> usize {
     1 + text.bytes().take(offset).filter(|b| *b == b'\n').count()
+}
+
+/// The key of the value at `span`, with a colon; empty where the span is no value. (The parser's own words name
+/// unknown and missing keys, but not the key of a value of the wrong type.)
+fn key_before(text: &str, span: Option<Range<usize>>) -> String {
+    let before = span.and_then(|s| text.get(..s.start)).unwrap_or_default();
+    let Some(before) = before.trim_end().strip_suffix('=') else { return String::new() };
+    let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    let key = before.trim_end().rsplit(|c| !bare(c)).next().unwrap_or_default();
+    format!("{key}: ")
+}
+
+/// The parser's words without names of types.
+fn plain(message: &str) -> String {
+    ["usize", "u32", "i64"]
+        .iter()
+        .fold(message.to_owned(), |m, name| m.replace(&format!("expected {name}"), "expected a whole number"))
 }
 
 fn key_line(text: &str, key: &str) -> Option<usize> {
