@@ -113,7 +113,8 @@ fn a_truth_column_gives_scores() {
 fn settings_come_from_preset_and_set_in_this_order() {
     let folder = Folder::with_demo();
     let settings = |words: &str| {
-        json(&folder.done(&format!("clean demo.csv --channel vx_mps --json {words}")))["channels"][0]["settings"].clone()
+        json(&folder.done(&format!("clean demo.csv --channel vx_mps --json {words}")))["channels"][0]["settings"]
+            .clone()
     };
     // Section 6 of the methods page: order 2 (paper 3), points 8 (6), max_run 10 (5), repair_rule best (matched).
     let of = |s: &Value| [&s["order"], &s["points"], &s["max_run"], &s["repair_rule"]].map(ToString::to_string);
