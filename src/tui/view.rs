@@ -87,14 +87,19 @@ fn toast(model: &Model, area: Rect, buffer: &mut Buffer) {
             Tone::Warning => theme.warning,
             Tone::Error => theme.error,
         };
-        Line::styled(format!(" {}", crate::track::printable(&toast.text)), style)
+        said(&toast.text, style)
     } else if let Some(error) = &model.state().error {
-        Line::styled(format!(" {}", crate::track::printable(error)), theme.error)
+        said(error, theme.error)
     } else {
         Line::default()
     };
     clear(area, buffer);
     line.render(area, buffer);
+}
+
+/// Words of the program. The style ends with them: styled blanks up to the edge would go over the wire each time.
+fn said(text: &str, style: Style) -> Line<'static> {
+    Line::from(Span::styled(format!(" {}", crate::track::printable(text)), style))
 }
 
 /// A heading: a rule with the name of a panel, its digit, and a few words.
