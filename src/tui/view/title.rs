@@ -68,11 +68,11 @@ fn right_side(model: &Model) -> Line<'static> {
             if counts.conflicts > 0 {
                 spans.push(Span::styled(format!(" !{}", counts.conflicts), theme.warning));
             }
-            if state.stale {
-                spans.push(Span::styled(" …", theme.warning));
-            }
         }
     }
-    spans.push(Span::styled(if model.unsaved() { " [+] " } else { " " }, theme.warning));
+    // The mark of an old result stands where a blank is without it: the counts stay put while a knob is turned.
+    let old = state.stale && state.drawn.is_some();
+    let unsaved = if model.unsaved() { "[+] " } else { "" };
+    spans.push(Span::styled(format!("{}{unsaved}", if old { '…' } else { ' ' }), theme.warning));
     Line::from(spans)
 }
