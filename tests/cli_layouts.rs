@@ -63,6 +63,7 @@ fn the_repaired_cell_is_written_in_the_form_of_the_file() {
         folder.done("clean in.csv --method hampel --repair linear -o out.csv");
         // Between 14.50 and 15.50.
         assert_eq!(folder.text("out.csv"), layout.record("15", None), "{input}");
+        assert_eq!(folder.names(), ["in.csv", "out.csv"]);
     }
 }
 
