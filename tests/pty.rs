@@ -180,15 +180,17 @@ fn a_resize_redraws_and_too_small_a_window_says_so() {
 }
 
 #[test]
+#[cfg(target_os = "linux")]
 fn a_torn_arrow_key_is_one_key() {
     let (_folder, mut terminal) = workbench(COMPACT);
     // At the left end the left arrow can only say so; taken for three keys, `D` opens the list of channels.
     let shown = |text: &'static str| move |screen: &vt100::Screen| screen.contents().contains(text);
     let mut torn = 0;
     while torn < 5 {
-        terminal.keys("\x1b");
         let between = std::time::Instant::now();
+        terminal.key_by_itself("\x1b");
         terminal.keys("[D");
+        // On a busy machine the rest may come so late that it is no rest: that attempt does not count.
         let at_once = between.elapsed().as_millis() < 10;
         terminal.wait_until("an effect", |screen| {
             shown("this is the end of the record")(screen) || shown("filter:")(screen)

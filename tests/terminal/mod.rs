@@ -115,6 +115,21 @@ impl Terminal {
         self.writer.flush().unwrap();
     }
 
+    /// Types a key and waits until the program has read it, so that what is typed next arrives apart from it.
+    #[cfg(target_os = "linux")]
+    pub(crate) fn key_by_itself(&mut self, key: &str) {
+        let path = format!("/proc/{}/io", self.child.process_id().unwrap());
+        // The first line is `rchar: N`, the bytes read so far from anywhere, terminals too.
+        let read = || std::fs::read_to_string(&path).unwrap().lines().next().map(str::to_owned);
+        let before = read();
+        let deadline = Instant::now() + PATIENCE;
+        self.keys(key);
+        while read() == before {
+            assert!(Instant::now() < deadline, "{key:?} has not been read");
+            std::thread::yield_now();
+        }
+    }
+
     /// Makes the window another size.
     pub(crate) fn resize(&mut self, size: (u16, u16)) {
         let (rows, cols) = screen_size(size);
