@@ -1,0 +1,203 @@
+//! Whole frames of the workbench as an analyst sees them, driven by keys through `update` and drawn by `view`.
+//!
+//! Text is for people; a few frames are kept with their styles as well, where the style says something that the
+//! text does not.
+
+#![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
+
+use std::path::PathBuf;
+
+use insta::{assert_debug_snapshot, assert_snapshot};
+use ratatui::buffer::Buffer;
+use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use ratatui::layout::Rect;
+use wildpoint::session::{Session, Setup};
+use wildpoint::stop::Stop;
+use wildpoint::track::{LoadOptions, Source, load};
+use wildpoint::tui::message::{Effect, Message};
+use wildpoint::tui::model::Model;
+use wildpoint::tui::office::Judge;
+use wildpoint::tui::plot::Glyphs;
+use wildpoint::tui::theme::{ColorDepth, Theme};
+use wildpoint::tui::update::update;
+use wildpoint::tui::{Look, Opening, text_of, view};
+
+const UNICODE_DARK: (Glyphs, ColorDepth) = (Glyphs::Unicode, ColorDepth::Indexed256);
+const ASCII_MONO: (Glyphs, ColorDepth) = (Glyphs::Ascii, ColorDepth::Never);
+
+/// A workbench whose results are there at once.
+struct Bench(Model);
+
+impl Bench {
+    /// On a record of `data/`, in a window of 80x24.
+    fn on(name: &str, (glyphs, depth): (Glyphs, ColorDepth)) -> Self {
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("data").join(name);
+        let options = LoadOptions::default();
+        let track = load(&Source::File(path), &options).unwrap();
+        let session = Session::new(&track, options, &Setup::standard());
+        let opening = Opening { track, session, file: None, notes: Vec::new() };
+        let model = opening.model(Look { theme: Theme::choose(depth, false), glyphs });
+        let mut bench = Self(model);
+        bench.judge(0);
+        bench
+    }
+
+    fn judge(&mut self, plan: usize) {
+        let result = Judge::new(&self.0, plan).run(&Stop::never()).map(Box::new);
+        self.0.awaited = Some(0);
+        update(&mut self.0, Message::Analysed { generation: 0, plan, result });
+    }
+
+    fn size(mut self, (width, height): (u16, u16)) -> Self {
+        update(&mut self.0, Message::Resize(width, height));
+        self
+    }
+
+    /// Presses keys: names stand between blanks, everything else is typed letter by letter.
+    fn keys(mut self, keys: &str) -> Self {
+        for name in keys.split(' ') {
+            let named = match name {
+                "Enter" => Some(KeyCode::Enter),
+                "Esc" => Some(KeyCode::Esc),
+                "Down" => Some(KeyCode::Down),
+                "Tab" => Some(KeyCode::Tab),
+                "Space" => Some(KeyCode::Char(' ')),
+                _ => None,
+            };
+            match named {
+                Some(code) => self.press(code),
+                None => name.chars().for_each(|c| self.press(KeyCode::Char(c))),
+            }
+        }
+        self
+    }
+
+    fn press(&mut self, code: KeyCode) {
+        let effects = update(&mut self.0, Message::Key(KeyEvent::new(code, KeyModifiers::NONE)));
+        for effect in effects {
+            match effect {
+                Effect::Analyse(plan) => self.judge(plan),
+                other => panic!("{other:?} is nothing for a still frame"),
+            }
+        }
+    }
+
+    fn buffer(&self) -> Buffer {
+        let (width, height) = self.0.size;
+        let area = Rect { x: 0, y: 0, width, height };
+        let mut buffer = Buffer::empty(area);
+        view::draw(&self.0, area, &mut buffer);
+        buffer
+    }
+
+    fn frame(&self) -> String {
+        text_of(&self.buffer())
+    }
+}
+
+/// Keeps a frame at both sizes, under `name` and the size.
+fn both(name: &str, keys: &str) {
+    for (label, size) in [("80x24", (80, 24)), ("120x40", (120, 40))] {
+        let bench = Bench::on("demo.csv", UNICODE_DARK).size(size);
+        let bench = if keys.is_empty() { bench } else { bench.keys(keys) };
+        assert_snapshot!(format!("{name}_{label}"), bench.frame());
+    }
+}
+
+/// Rejects the second flag, accepts the third, flags a sample by hand and looks at what lies around it.
+const REVIEWED: &str = "n r a :goto Space #230 Enter o p z";
+
+#[test]
+fn start() {
+    both("start", "");
+}
+
+#[test]
+fn zoomed_on_a_flag_after_decisions() {
+    both("reviewed", REVIEWED);
+}
+
+#[test]
+fn parameters_with_the_keyboard() {
+    both("parameters", "3 Down Down");
+}
+
+#[test]
+fn queue_with_the_keyboard() {
+    both("queue", "s s 4 Down Down");
+}
+
+#[test]
+fn help() {
+    both("help", "?");
+}
+
+#[test]
+fn help_narrowed_by_what_was_typed() {
+    both("help_narrowed", "?undo");
+}
+
+#[test]
+fn list_of_methods() {
+    both("methods", "m");
+}
+
+#[test]
+fn list_of_methods_narrowed() {
+    both("methods_narrowed", "mpredict Down");
+}
+
+#[test]
+fn command_with_an_error() {
+    both("command_error", ":set Space windov Space 9 Enter");
+}
+
+#[test]
+fn question_before_quitting() {
+    both("confirm_quit", "a q");
+}
+
+#[test]
+fn keys_that_follow_g() {
+    both("prefix", "g");
+}
+
+#[test]
+fn record_after_repair_in_the_second_channel() {
+    both("after_repair", "d n z b");
+}
+
+#[test]
+fn too_small() {
+    let bench = Bench::on("demo.csv", UNICODE_DARK).size((39, 9));
+    assert_snapshot!(bench.frame());
+    // The least size with something to see, and the largest without a residual.
+    assert_snapshot!(Bench::on("demo.csv", UNICODE_DARK).size((40, 10)).frame());
+    assert_snapshot!(Bench::on("demo.csv", UNICODE_DARK).size((70, 18)).frame());
+}
+
+#[test]
+fn decimal_commas_and_other_names() {
+    assert_snapshot!(Bench::on("descent.csv", UNICODE_DARK).keys("d").frame());
+}
+
+#[test]
+fn without_colours_and_in_ascii() {
+    for (label, size) in [("80x24", (80, 24)), ("120x40", (120, 40))] {
+        let bench = Bench::on("demo.csv", ASCII_MONO).size(size);
+        assert_snapshot!(format!("ascii_start_{label}"), bench.frame());
+        assert_snapshot!(format!("ascii_reviewed_{label}"), bench.keys(REVIEWED).frame());
+    }
+    for keys in ["", REVIEWED, "m", "?", "a q"] {
+        let bench = Bench::on("demo.csv", ASCII_MONO);
+        let frame = if keys.is_empty() { bench } else { bench.keys(keys) }.frame();
+        let strange: String = frame.chars().filter(|c| !c.is_ascii()).collect();
+        assert_eq!(strange, "", "after {keys:?}\n{frame}");
+    }
+}
+
+#[test]
+fn styles_of_a_review() {
+    assert_debug_snapshot!(Bench::on("demo.csv", UNICODE_DARK).keys(REVIEWED).buffer());
+    assert_debug_snapshot!(Bench::on("demo.csv", ASCII_MONO).keys(REVIEWED).buffer());
+}
