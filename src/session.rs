@@ -13,6 +13,7 @@ use crate::track::{LoadOptions, Source, Track};
 mod analysis;
 mod cleaned;
 mod document;
+pub mod journal;
 mod replay;
 mod save;
 
@@ -52,7 +53,7 @@ pub struct Data {
 }
 
 /// What to do with one channel.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     /// Name of the channel.
     pub channel: String,

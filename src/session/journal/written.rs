@@ -1,0 +1,179 @@
+//! Headers and entries as JSON, values in the words of the session file.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Base, Entry, Header};
+use crate::method::Verdict;
+use crate::param::Settings;
+use crate::review::{Decision, Decisions, Ruling};
+use crate::session::{Plan, Preset, Setup, method_of_id};
+
+/// The version of the lines that this program writes and reads.
+const FORMAT: u32 = 1;
+
+#[derive(Serialize, Deserialize)]
+struct WrittenHeader {
+    format: u32,
+    program: String,
+    record: String,
+    sha256: String,
+    rows: usize,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    session: Option<WrittenBase>,
+    #[serde(default)]
+    begun: usize,
+    #[serde(default)]
+    carried: usize,
+}
+
+#[derive(Serialize, Deserialize)]
+struct WrittenBase {
+    path: String,
+    sha256: String,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenEntry {
+    channel: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    setup: Option<WrittenSetup>,
+    /// All decisions there are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    decisions: Option<Vec<WrittenDecision>>,
+    /// Decisions that have changed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    changes: Option<Vec<WrittenDecision>>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenSetup {
+    method: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    rate: Option<String>,
+    settings: BTreeMap<String, String>,
+    repair: BTreeMap<String, String>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenDecision {
+    /// From 1, as in sessions.
+    row: u64,
+    /// None: the decision was taken back.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    verdict: Option<String>,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    note: String,
+    /// What the method said when it was decided.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    said: Option<String>,
+}
+
+/// The JSON of a header, on one line.
+pub(super) fn header_text(header: &Header) -> String {
+    json(&WrittenHeader {
+        format: FORMAT,
+        program: concat!("wildpoint ", env!("CARGO_PKG_VERSION")).into(),
+        record: header.record.clone(),
+        sha256: header.sha256.clone(),
+        rows: header.rows,
+        session: header.base.clone().map(|b| WrittenBase { path: b.path, sha256: b.sha256 }),
+        begun: header.begun,
+        carried: header.carried,
+    })
+}
+
+/// The header of a JSON text; none for one that this version does not read.
+pub(super) fn header_of(text: &str) -> Option<Header> {
+    let w: WrittenHeader = serde_json::from_str(text).ok()?;
+    let base = w.session.map(|b| Base { path: b.path, sha256: b.sha256 });
+    let WrittenHeader { record, sha256, rows, begun, carried, .. } = w;
+    (w.format == FORMAT).then_some(Header { record, sha256, rows, base, begun, carried })
+}
+
+/// The JSON of an entry, on one line.
+pub(super) fn entry_text(entry: &Entry) -> String {
+    let channel = entry.channel().to_owned();
+    let blank = WrittenEntry { channel, setup: None, decisions: None, changes: None };
+    json(&match entry {
+        Entry::Whole(plan) => {
+            let decisions = plan.decisions.iter().map(|(row, d)| written(row, Some(d))).collect();
+            WrittenEntry { setup: Some(written_setup(&plan.setup)), decisions: Some(decisions), ..blank }
+        }
+        Entry::Setup { setup, .. } => WrittenEntry { setup: Some(written_setup(setup)), ..blank },
+        Entry::Decide { decisions, .. } => {
+            let changes = decisions.iter().map(|(row, d)| written(*row, d.as_ref())).collect();
+            WrittenEntry { changes: Some(changes), ..blank }
+        }
+    })
+}
+
+/// The entry of a JSON text about a record of `rows` rows; none for one that makes no sense.
+pub(super) fn entry_of(text: &str, rows: usize) -> Option<Entry> {
+    let WrittenEntry { channel, setup, decisions, changes } = serde_json::from_str(text).ok()?;
+    let read = |list: Vec<WrittenDecision>| list.into_iter().map(|d| d.read(rows)).collect::<Option<Vec<_>>>();
+    match (setup, decisions, changes) {
+        (Some(setup), Some(list), None) => {
+            let mut decisions = Decisions::default();
+            read(list)?.into_iter().for_each(|(row, d)| decisions.set(row, d));
+            Some(Entry::Whole(Box::new(Plan { channel, setup: setup.read()?, decisions })))
+        }
+        (Some(setup), None, None) => Some(Entry::Setup { channel, setup: Box::new(setup.read()?) }),
+        (None, None, Some(list)) => Some(Entry::Decide { channel, decisions: read(list)? }),
+        _ => None,
+    }
+}
+
+fn json(value: &impl Serialize) -> String {
+    // These structures hold nothing that JSON cannot: no maps with odd keys, no numbers but whole ones.
+    serde_json::to_string(value).unwrap_or_default()
+}
+
+fn written(row: u32, decision: Option<&Decision>) -> WrittenDecision {
+    WrittenDecision {
+        row: u64::from(row) + 1,
+        verdict: decision.map(|d| d.ruling.verdict().word().to_owned()),
+        note: decision.map(|d| d.note.clone()).unwrap_or_default(),
+        said: decision.and_then(|d| d.said).map(|v| v.word().to_owned()),
+    }
+}
+
+fn written_setup(setup: &Setup) -> WrittenSetup {
+    let texts = |s: &Settings| s.iter().map(|(p, v)| (p.key.to_owned(), v.to_string())).collect();
+    WrittenSetup {
+        method: setup.method.about().id.to_owned(),
+        rate: setup.rate.clone(),
+        settings: texts(&setup.settings),
+        repair: texts(&setup.repair),
+    }
+}
+
+impl WrittenDecision {
+    fn read(self, rows: usize) -> Option<(u32, Option<Decision>)> {
+        let row = self.row.checked_sub(1).and_then(|r| u32::try_from(r).ok()).filter(|r| (*r as usize) < rows)?;
+        let said = match self.said {
+            None => None,
+            Some(word) => Some(Verdict::ALL.into_iter().find(|v| v.word() == word)?),
+        };
+        let decision = match self.verdict {
+            None => None,
+            Some(word) => Some(Decision { ruling: Ruling::of_word(&word)?, note: self.note, said }),
+        };
+        Some((row, decision))
+    }
+}
+
+impl WrittenSetup {
+    fn read(self) -> Option<Setup> {
+        let mut setup = Setup::new(method_of_id(&self.method).ok()?, Preset::Default);
+        setup.rate = self.rate;
+        let fill = |settings: &mut Settings, texts: BTreeMap<String, String>| {
+            texts.iter().all(|(key, text)| settings.set_text("journal", key, text).is_ok())
+        };
+        (fill(&mut setup.settings, self.settings) && fill(&mut setup.repair, self.repair)).then_some(setup)
+    }
+}
