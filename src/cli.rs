@@ -34,6 +34,9 @@ pub struct Cli {
     /// Colours for a light background.
     #[arg(long)]
     pub light: bool,
+    /// Keep no journal: what is not saved is lost when the workbench is killed.
+    #[arg(long)]
+    pub no_journal: bool,
     /// How to load and judge.
     #[command(flatten)]
     pub shared: Shared,

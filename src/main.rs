@@ -12,9 +12,10 @@ use wildpoint::report::Summary;
 use wildpoint::session::{Analysed, Session, open_all};
 use wildpoint::stop::Stop;
 use wildpoint::track::{Source, load};
+use wildpoint::tui::journal::folder;
 use wildpoint::tui::plot::Glyphs;
 use wildpoint::tui::theme::{ColorDepth, Theme};
-use wildpoint::tui::{Look, Opening, run, still};
+use wildpoint::tui::{Ended, Look, Opening, run, still};
 
 fn main() -> ExitCode {
     let mut cli = Cli::parse();
@@ -26,7 +27,14 @@ fn main() -> ExitCode {
             let flushed = out.flush().map_err(Error::io("write", "standard output"));
             ended.and_then(|ending| flushed.map(|()| ending))
         }
-        None => workbench(&cli).map(|()| Ending::Done),
+        None => match workbench(&cli) {
+            Ok(Ended { signal: Some(signal), words }) => {
+                let _ = writeln!(std::io::stderr(), "wildpoint: {words}");
+                // As shells have it for programs that a signal ended.
+                return ExitCode::from(128 | u8::try_from(signal).unwrap_or(0));
+            }
+            other => other.map(|_| Ending::Done),
+        },
     };
     match ended {
         Ok(Ending::Done) => ExitCode::SUCCESS,
@@ -41,13 +49,14 @@ fn main() -> ExitCode {
 }
 
 /// Opens the workbench, or prints one frame of it where there is no terminal.
-fn workbench(cli: &Cli) -> Result<()> {
+fn workbench(cli: &Cli) -> Result<Ended> {
     batch::set_threads(cli.shared.threads)?;
     let opening = opening(cli)?;
     let stdout = std::io::stdout();
     let dumb = std::env::var("TERM").is_ok_and(|t| t == "dumb");
     if stdout.is_terminal() && !dumb {
-        return run(opening, Look { theme: theme(cli), glyphs: glyphs(cli) });
+        let journal = if cli.no_journal { None } else { folder() };
+        return run(opening, Look { theme: theme(cli), glyphs: glyphs(cli) }, journal);
     }
     let analysed = {
         let mut first = opening.session.clone();
@@ -57,7 +66,8 @@ fn workbench(cli: &Cli) -> Result<()> {
     };
     let frame = still(opening, Look { theme: Theme::mono(), glyphs: glyphs(cli) }, cli.size)?;
     let mut out = stdout.lock();
-    writeln!(out, "{frame}\n{analysed}").map_err(Error::io("write", "standard output"))
+    writeln!(out, "{frame}\n{analysed}").map_err(Error::io("write", "standard output"))?;
+    Ok(Ended::default())
 }
 
 fn opening(cli: &Cli) -> Result<Opening> {

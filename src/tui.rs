@@ -12,28 +12,33 @@ use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{Event, KeyEventKind, read};
 use ratatui::layout::Rect;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::job::Worker;
 use crate::session::Session;
 use crate::stop::Stop;
 use crate::track::Track;
 use input::{ESC_TIMEOUT_MS, Normaliser};
+use journal::Journal;
 use message::{Effect, Message, Written};
 use model::{Model, Tone};
 use office::{Errand, Judge};
 use plot::Glyphs;
+pub use signals::Ended;
+use signals::{HANG_UP, Signalled};
 use terminal::Screen;
 use theme::Theme;
 
 pub mod action;
 pub mod drawn;
 mod input;
+pub mod journal;
 pub mod keys;
 pub mod layout;
 pub mod message;
 pub mod model;
 pub mod office;
 pub mod plot;
+mod signals;
 mod terminal;
 pub mod theme;
 pub mod update;
@@ -112,35 +117,64 @@ pub fn text_of(buffer: &Buffer) -> String {
     text
 }
 
-/// Runs the workbench until the user leaves it.
+/// Runs the workbench until the user leaves it, or a signal ends it; keeps a journal in the folder `journal`.
 ///
 /// # Errors
 /// When the terminal cannot be used.
-pub fn run(opening: Opening, look: Look) -> Result<()> {
+pub fn run(opening: Opening, look: Look, journal: Option<PathBuf>) -> Result<Ended> {
     let mut model = opening.model(look);
     let (sender, messages) = unbounded();
-    let worker = office::judge(sender.clone());
-    let mut outside = Outside { worker, sender };
-    let signals = listen_for_signals()?;
+    let signals = signals::listen()?;
+    let journal = Journal::start(journal, &mut model, sender.clone());
+    let mut outside = Outside { worker: office::judge(sender.clone()), sender, journal };
     let mut screen = Screen::take()?;
+    let left = work(&mut model, &mut outside, &mut screen, &messages, &signals);
+    let left = match left {
+        Err(e) if signals::is_gone(&e) => Ok(Left::Signalled(HANG_UP)),
+        other => other,
+    };
+    // The work is safe before anything is tried with a terminal that may be gone.
+    let quit = matches!(left, Ok(Left::Quit));
+    let kept = outside.journal.end(quit || !model.unsaved());
+    drop(screen);
+    Ok(match left? {
+        Left::Quit => Ended::default(),
+        Left::Signalled(signal) => Ended::by(signal, &model, kept.as_deref()),
+    })
+}
+
+/// Why the loop ended.
+enum Left {
+    Quit,
+    Signalled(i32),
+}
+
+/// The loop between the model and the outside.
+fn work(
+    model: &mut Model,
+    outside: &mut Outside,
+    screen: &mut Screen,
+    messages: &Receiver<Message>,
+    signals: &Receiver<Signalled>,
+) -> Result<Left> {
     model.size = screen.size()?;
     let first = vec![Effect::Analyse(model.shown)];
-    outside.carry_out(&mut model, &mut screen, first)?;
+    outside.carry_out(model, screen, first)?;
     let events = listen_for_events();
     let mut normaliser = Normaliser::default();
-    screen.draw(&model)?;
+    screen.draw(model)?;
     loop {
         let mut inbox = Vec::new();
         select! {
             recv(events) -> event => match event {
                 Ok(event) => take_event(event, &mut normaliser, &mut inbox),
                 // The terminal is gone: so is the reason to go on.
-                Err(_) => return Ok(()),
+                Err(_) => return Ok(Left::Signalled(HANG_UP)),
             },
             recv(messages) -> message => inbox.extend(message),
             recv(signals) -> signal => if let Ok(signal) = signal {
                 match signal {
-                    Signalled::End => return Ok(()),
+                    Signalled::End(signal) => return Ok(Left::Signalled(signal)),
                     Signalled::Suspend => screen.suspend()?,
                     Signalled::Resumed => screen.forget()?,
                 }
@@ -156,12 +190,12 @@ pub fn run(opening: Opening, look: Look) -> Result<()> {
         events.try_iter().for_each(|event| take_event(event, &mut normaliser, &mut inbox));
         inbox.extend(messages.try_iter());
         for message in inbox {
-            let effects = update::update(&mut model, message);
-            if outside.carry_out(&mut model, &mut screen, effects)? == Next::Leave {
-                return Ok(());
+            if outside.take(model, screen, message)? == Next::Leave {
+                return Ok(Left::Quit);
             }
         }
-        screen.draw(&model)?;
+        outside.journal.catch_up();
+        screen.draw(model)?;
     }
 }
 
@@ -188,40 +222,6 @@ fn listen_for_events() -> Receiver<Event> {
     events
 }
 
-/// A signal, as far as it matters.
-#[derive(Debug, Clone, Copy)]
-enum Signalled {
-    End,
-    Suspend,
-    Resumed,
-}
-
-#[cfg(unix)]
-fn listen_for_signals() -> Result<Receiver<Signalled>> {
-    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP};
-    let mut signals = signal_hook::iterator::Signals::new([SIGTERM, SIGHUP, SIGINT, SIGTSTP, SIGCONT])
-        .map_err(|source| Error::Io { action: "listen for", path: "signals".into(), source })?;
-    let (sender, receiver) = unbounded();
-    std::thread::spawn(move || {
-        for signal in signals.forever() {
-            let meaning = match signal {
-                SIGTSTP => Signalled::Suspend,
-                SIGCONT => Signalled::Resumed,
-                _ => Signalled::End,
-            };
-            if sender.send(meaning).is_err() {
-                return;
-            }
-        }
-    });
-    Ok(receiver)
-}
-
-#[cfg(not(unix))]
-fn listen_for_signals() -> Result<Receiver<Signalled>> {
-    Ok(crossbeam_channel::never())
-}
-
 /// Whether the loop goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Next {
@@ -233,9 +233,21 @@ enum Next {
 struct Outside {
     worker: Worker<Judge>,
     sender: Sender<Message>,
+    journal: Journal,
 }
 
 impl Outside {
+    /// Has the model take a message in, and does what follows.
+    fn take(&mut self, model: &mut Model, screen: &mut Screen, message: Message) -> Result<Next> {
+        let saved = matches!(message, Message::Written { what: Written::Session { .. }, result: Ok(_), .. });
+        let effects = update::update(model, message);
+        self.journal.note(model);
+        if saved {
+            self.journal.saved(model);
+        }
+        self.carry_out(model, screen, effects)
+    }
+
     fn carry_out(&mut self, model: &mut Model, screen: &mut Screen, effects: Vec<Effect>) -> Result<Next> {
         for effect in effects {
             match effect {
@@ -248,6 +260,7 @@ impl Outside {
                 Effect::Export { path, overwrite } => {
                     self.write(model, Errand { what: Written::Cleaned, path, overwrite });
                 }
+                Effect::Offered { path, fate } => self.journal.settle(model, &path, fate),
                 Effect::Redraw => screen.forget()?,
                 Effect::Suspend => screen.suspend()?,
                 Effect::Quit => return Ok(Next::Leave),

@@ -154,14 +154,18 @@ fn quitting_asks_when_something_is_unsaved_and_gives_the_terminal_back() {
 
 #[test]
 fn signals_give_the_terminal_back() {
-    for name in ["TERM", "HUP"] {
+    for (name, number) in [("TERM", 15), ("HUP", 1), ("INT", 2)] {
         let (_folder, mut terminal) = workbench(COMPACT);
         terminal.keys("a");
         terminal.wait_for("accepted row 61");
         terminal.signal(name);
         let (status, raw) = terminal.end();
-        assert_eq!(status, 0, "{name}");
+        assert_eq!(status, 128 + number, "{name}");
         assert_restored(&raw);
+        let after = String::from_utf8_lossy(&raw).rsplit("\x1b[?25h").next().unwrap().to_owned();
+        let lines: Vec<&str> = after.lines().filter(|line| !line.trim().is_empty()).collect();
+        let way_back = "`wildpoint demo.csv` offers it back";
+        assert!(matches!(lines[..], [line] if line.contains(way_back)), "one line after the screen: {after:?}");
     }
 }
 

@@ -244,3 +244,21 @@ fn outputs_of_a_replay_never_take_the_place_of_session_or_record() {
     assert_eq!(folder.run("replay demo.toml --check -o clean.csv").status, 2);
     assert_eq!(folder.names(), ["demo.csv", "demo.toml"]);
 }
+
+#[test]
+fn a_result_that_is_not_the_recorded_one_is_told_without_a_check() {
+    let clean = recorded(SESSION, "clean_sha256");
+    let other = SESSION.replace(&clean, &"0".repeat(64));
+    for (session, differs) in [(SESSION, false), (other.as_str(), true)] {
+        for output in ["", " -o clean.csv --force"] {
+            let folder = folder_with(session, DEMO);
+            let text = folder.done(&format!("replay demo.toml{output}"));
+            let said = format!("note: not the result that the session recorded: the cleaned file has SHA-256 {clean}");
+            assert_eq!(text.contains(&said), differs, "{text}");
+            let json = folder.done(&format!("replay demo.toml --json{output}"));
+            let summary: serde_json::Value = serde_json::from_str(&json).unwrap();
+            assert_eq!(summary["differs"].as_array().unwrap().len(), usize::from(differs), "{json}");
+            assert_eq!(folder.run("replay --check demo.toml").status, i32::from(differs));
+        }
+    }
+}

@@ -7,7 +7,7 @@ use super::{Ending, clean, print, tell};
 use crate::cli::OutputArgs;
 use crate::error::{Error, Result};
 use crate::report::Summary;
-use crate::session::{Analysed, check, open};
+use crate::session::{Analysed, Recorded, check, open};
 use crate::stop::Stop;
 use crate::track::{Outputs, printable};
 
@@ -42,6 +42,13 @@ fn run(path: &Path, accept_changed: bool, outputs: &OutputArgs, out: &mut dyn Wr
     let mut files = Outputs::new(outputs.force, &inputs);
     clean::stage(&mut files, outputs, &opened.track, &opened.session, &analysed, &mut summary)?;
     files.commit()?;
+    if let Some(then) = opened.session.result.as_ref().filter(|_| outputs.json || !outputs.quiet) {
+        let now = match summary.clean_sha256.clone() {
+            Some(clean_sha256) => Recorded { flagged: analysed.flagged(), clean_sha256 },
+            None => analysed.recorded(&opened.track)?,
+        };
+        summary.differs = Some(check(Some(then), &now));
+    }
     if !outputs.quiet && !outputs.json {
         for note in &opened.notes {
             print(out, &format!("{}: {}\n", path.display(), printable(note)))?;

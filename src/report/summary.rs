@@ -26,6 +26,10 @@ pub struct Summary {
     /// SHA-256 of the cleaned file, where it was made.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clean_sha256: Option<String>,
+    /// How the result differs from the one that the session recorded when it was saved; empty when it does not, none
+    /// when there is nothing to compare with.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub differs: Option<Vec<String>>,
     /// One entry per channel.
     pub channels: Vec<ChannelSummary>,
 }
@@ -98,6 +102,7 @@ impl Summary {
             rows: track.rows,
             flagged: analysed.flagged(),
             clean_sha256: None,
+            differs: None,
             channels: channels.collect(),
         }
     }
@@ -132,6 +137,9 @@ impl Summary {
             c.warnings.iter().for_each(|w| {
                 let _ = writeln!(out, "  note: {w}");
             });
+        }
+        for difference in self.differs.iter().flatten() {
+            let _ = writeln!(out, "note: not the result that the session recorded: {difference}");
         }
         out
     }

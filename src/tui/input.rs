@@ -21,6 +21,11 @@ impl Normaliser {
 
     /// Takes a key in; gives the keys that were meant.
     pub(super) fn feed(&mut self, key: KeyEvent) -> Vec<KeyEvent> {
+        if let Some(letter) = after_esc(key) {
+            let mut keys = self.feed(escape());
+            keys.extend(self.feed(letter));
+            return keys;
+        }
         let Some(mut tail) = self.pending.take() else {
             if key.code == KeyCode::Esc && key.modifiers.is_empty() {
                 self.pending = Some(String::new());
@@ -50,6 +55,13 @@ impl Normaliser {
     pub(super) fn flush(&mut self) -> Option<KeyEvent> {
         self.pending.take().filter(String::is_empty).map(|_| escape())
     }
+}
+
+/// The letter of an Alt-letter: no key here has Alt, but an `Esc` and a letter that arrive in one read look like one.
+fn after_esc(key: KeyEvent) -> Option<KeyEvent> {
+    let alone = !key.modifiers.contains(KeyModifiers::CONTROL);
+    let alt = matches!(key.code, KeyCode::Char(_)) && key.modifiers.contains(KeyModifiers::ALT) && alone;
+    alt.then(|| KeyEvent { modifiers: key.modifiers - KeyModifiers::ALT, ..key })
 }
 
 fn escape() -> KeyEvent {
@@ -120,6 +132,24 @@ mod tests {
         assert_eq!(typed("\x1b\x1b[B"), [KeyCode::Esc, KeyCode::Down]);
         assert_eq!(typed("\x1b[99~x"), [KeyCode::Char('x')]);
         assert_eq!(typed("\x1b[1;"), []);
+    }
+
+    #[test]
+    fn an_alt_letter_is_an_esc_and_the_letter() {
+        let alt = |c, more| KeyEvent::new(KeyCode::Char(c), KeyModifiers::ALT | more);
+        let plain = |c, modifiers| KeyEvent::new(KeyCode::Char(c), modifiers);
+        let (none, shift) = (KeyModifiers::NONE, KeyModifiers::SHIFT);
+        let mut normaliser = Normaliser::default();
+        assert_eq!(normaliser.feed(alt('q', none)), [escape(), plain('q', none)]);
+        assert_eq!(normaliser.feed(alt('N', shift)), [escape(), plain('N', shift)]);
+        // After an Esc that still waited there are two of them.
+        assert_eq!(normaliser.feed(escape()), []);
+        assert_eq!(normaliser.feed(alt('q', none)), [escape(), escape(), plain('q', none)]);
+        // The start of a sequence stays one, wherever it was torn.
+        assert_eq!(normaliser.feed(alt('[', none)), []);
+        assert_eq!(normaliser.feed(plain('B', none)), [KeyEvent::new(KeyCode::Down, none)]);
+        let control = KeyEvent::new(KeyCode::Char('x'), KeyModifiers::ALT | KeyModifiers::CONTROL);
+        assert_eq!(normaliser.feed(control), [control]);
     }
 
     #[test]

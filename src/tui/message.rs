@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use ratatui::crossterm::event::KeyEvent;
 
 use super::drawn::Drawn;
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Something that happened.
 #[derive(Debug)]
@@ -34,6 +34,8 @@ pub enum Message {
         /// A few words for the user, or what went wrong.
         result: Result<String>,
     },
+    /// The journal can no longer be written.
+    Unjournalled(Error),
 }
 
 /// What was written.
@@ -48,6 +50,20 @@ pub enum Written {
     },
     /// The cleaned file.
     Cleaned,
+}
+
+/// What becomes of a journal that was offered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fate {
+    /// Its changes are in the session now: the own journal takes its place.
+    Taken {
+        /// How many they are.
+        changes: usize,
+    },
+    /// It is not wanted any more.
+    Dropped,
+    /// It is kept for another time.
+    Left,
 }
 
 /// Something that the outside has to do.
@@ -72,6 +88,13 @@ pub enum Effect {
         path: PathBuf,
         /// Whether it may take the place of a file that is there.
         overwrite: bool,
+    },
+    /// Do what was decided with a journal that was offered.
+    Offered {
+        /// The journal.
+        path: PathBuf,
+        /// What becomes of it.
+        fate: Fate,
     },
     /// Draw everything again, whatever the terminal shows.
     Redraw,

@@ -9,6 +9,7 @@ use tui_input::Input;
 
 use super::action::Panel;
 use super::drawn::Drawn;
+use super::journal::Found;
 use super::plot::{Axis, Flags, Glyphs, View};
 use super::theme::Theme;
 use crate::param::{Param, Settings};
@@ -58,6 +59,17 @@ pub struct Model {
     pub sort: Sort,
     /// Whether the next quit is meant.
     pub interrupted: bool,
+    /// Changes of the document that the journal does not have yet.
+    pub unjournalled: Vec<Touched>,
+}
+
+/// Where the document has changed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Touched {
+    /// Index of the plan.
+    pub plan: usize,
+    /// Rows (from 0) whose decisions have changed; none when it was the setup.
+    pub rows: Vec<u32>,
 }
 
 /// What the workbench keeps for a channel, shown or not.
@@ -147,6 +159,8 @@ pub enum Overlay {
     Prompt(Prompt),
     /// Quit although something is not saved?
     ConfirmQuit,
+    /// Take back in what an earlier workbench left? The newest first.
+    Recover(Vec<Found>),
 }
 
 /// A list to choose from.
@@ -255,6 +269,7 @@ impl Model {
             awaited: None,
             sort: Sort::Time,
             interrupted: false,
+            unjournalled: Vec::new(),
         }
     }
 

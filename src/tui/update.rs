@@ -4,7 +4,7 @@
 use super::action::{Action, Panel};
 use super::keys::{Meaning, meaning};
 use super::message::{Effect, Message, Written};
-use super::model::{Knob, Model, Overlay, Picker, PickerKind, Prompt, PromptKind, Sort, Tone};
+use super::model::{Knob, Model, Overlay, Picker, PickerKind, Prompt, PromptKind, Sort, Tone, Touched};
 use crate::error::Error;
 use crate::review::Change;
 use crate::session::{Edit, Setup};
@@ -13,6 +13,7 @@ mod command;
 mod files;
 mod navigate;
 mod overlay;
+mod recover;
 mod review;
 mod tune;
 
@@ -49,6 +50,11 @@ pub fn update(model: &mut Model, message: Message) -> Vec<Effect> {
             Vec::new()
         }
         Message::Written { what, path, result } => files::written(model, what, &path, result),
+        Message::Unjournalled(e) => {
+            let text = e.to_string().replace("\n  ", "; ");
+            model.say(Tone::Error, format!("the journal ends here, :w saves: {text}"));
+            Vec::new()
+        }
     }
 }
 
@@ -135,10 +141,11 @@ pub(super) fn show(model: &mut Model, plan: usize) -> Vec<Effect> {
 /// Makes an edit that can be undone; the channel is judged again.
 pub(super) fn commit(model: &mut Model, edit: Edit) -> Vec<Effect> {
     model.session.apply(&edit);
+    let effects = changed(model, &edit);
     if !join(model, &edit) {
         model.history.push(edit);
     }
-    changed(model, model.shown)
+    effects
 }
 
 /// Joins a step of a knob to the steps of the same knob just before it, so that one undo takes them all back.
@@ -157,7 +164,12 @@ fn join(model: &mut Model, edit: &Edit) -> bool {
 }
 
 /// The session has changed: it is not saved, and its result is not the one on the screen.
-fn changed(model: &mut Model, plan: usize) -> Vec<Effect> {
+fn changed(model: &mut Model, edit: &Edit) -> Vec<Effect> {
+    let (plan, rows) = match edit {
+        Edit::Decide { plan, changes } => (*plan, changes.iter().map(|c| c.row).collect()),
+        Edit::Setup { plan, .. } => (*plan, Vec::new()),
+    };
+    model.unjournalled.push(Touched { plan, rows });
     model.revision += 1;
     let state = &mut model.channels[plan];
     state.touched = true;
@@ -205,7 +217,7 @@ fn after_history(model: &mut Model, edit: &Edit, verb: &str, way_back: &str) -> 
     }
     let text = format!("{verb}: {} · {way_back}", describe(model, edit));
     model.say(Tone::Done, text);
-    changed(model, *plan)
+    changed(model, edit)
 }
 
 /// An edit in few words.

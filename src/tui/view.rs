@@ -18,6 +18,7 @@ mod parameters;
 mod plain;
 mod plots;
 mod queue;
+mod recover;
 mod title;
 
 /// Draws the workbench.

@@ -10,6 +10,7 @@ use std::sync::{Arc, Condvar, Mutex};
 use std::time::{Duration, Instant};
 
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
+use tempfile::TempDir;
 use vt100::{Parser, Screen};
 
 /// How long a condition may take on a busy machine.
@@ -31,6 +32,8 @@ pub(crate) struct Terminal {
     writer: Box<dyn Write + Send>,
     child: Box<dyn Child + Send + Sync>,
     seen: Arc<(Mutex<Seen>, Condvar)>,
+    /// The user's state folder, unless the environment names one: journals do not lie in that of whoever runs tests.
+    _state: TempDir,
 }
 
 /// Rows and columns as the parser wants them.
@@ -50,6 +53,8 @@ impl Terminal {
         command.args(words.split_whitespace());
         command.cwd(folder);
         ["NO_COLOR", "COLORTERM", "LC_ALL", "LC_CTYPE"].into_iter().for_each(|name| command.env_remove(name));
+        let state = TempDir::new().unwrap();
+        command.env("XDG_STATE_HOME", state.path());
         for (name, value) in [("TERM", "xterm-256color"), ("LANG", "C.UTF-8")].iter().chain(environment) {
             command.env(name, value);
         }
@@ -76,7 +81,7 @@ impl Terminal {
             }
         });
         let writer = pair.master.take_writer().unwrap();
-        Self { master: pair.master, writer, child, seen }
+        Self { master: pair.master, writer, child, seen, _state: state }
     }
 
     /// Waits until `done`, and gives what it made of it.
@@ -142,6 +147,17 @@ impl Terminal {
         let pid = self.child.process_id().unwrap().to_string();
         let sent = std::process::Command::new("kill").args(["-s", name, &pid]).status().unwrap();
         assert!(sent.success());
+    }
+
+    /// Waits until a whole frame has come after so many bytes.
+    pub(crate) fn wait_more(&self, than: usize) {
+        self.wait("a frame", |seen| (seen.raw.len() > than && seen.raw.ends_with(FRAME_END)).then_some(()));
+    }
+
+    /// Ends the program as a power cut would, at once.
+    pub(crate) fn kill(mut self) {
+        self.signal("KILL");
+        self.child.wait().unwrap();
     }
 
     /// How many bytes have come.

@@ -5,7 +5,7 @@ use tui_input::{Input, InputRequest};
 
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
-use super::{command, files, review, set_up, show, tune};
+use super::{command, files, recover, review, set_up, show, tune};
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
 use crate::track::printable;
@@ -75,13 +75,16 @@ pub fn narrowed(model: &Model, picker: &Picker) -> Vec<Entry> {
 
 /// A key while something lies over the panels.
 pub(super) fn key(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
-    let overlay = std::mem::take(&mut model.overlay);
+    let overlay = match std::mem::take(&mut model.overlay) {
+        Overlay::Recover(found) => return recover::key(model, found, key),
+        other => other,
+    };
     let gone = key.code == KeyCode::Esc || (key.code == KeyCode::Char('c') && control(key));
     if gone {
         return Vec::new();
     }
     match overlay {
-        Overlay::None => Vec::new(),
+        Overlay::None | Overlay::Recover(_) => Vec::new(),
         Overlay::Help(filter, from) => {
             model.overlay = help(filter, from, key);
             Vec::new()
@@ -98,7 +101,7 @@ pub(super) fn paste(model: &mut Model, text: &str) -> Vec<Effect> {
         Overlay::Prompt(prompt) => &mut prompt.input,
         Overlay::Picker(picker) => &mut picker.filter,
         Overlay::Help(filter, _) => filter,
-        Overlay::None | Overlay::ConfirmQuit => return Vec::new(),
+        Overlay::None | Overlay::ConfirmQuit | Overlay::Recover(_) => return Vec::new(),
     };
     for c in text.chars().filter(|c| !c.is_control()) {
         input.handle(InputRequest::InsertChar(c));

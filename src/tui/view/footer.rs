@@ -92,6 +92,10 @@ fn overlay_items(overlay: &Overlay) -> Option<Vec<(String, &'static str)>> {
         Overlay::Help(..) => &[("type", "to filter"), ("↑↓", "scroll"), ("Esc", "close")],
         Overlay::Picker(_) => &[("type", "to filter"), ("↑↓", "choose"), ("Enter", "take it"), ("Esc", "leave it")],
         Overlay::Prompt(_) => &[("Enter", "do it"), ("Tab", "complete"), ("Esc", "leave it")],
+        Overlay::Recover(found) if found.first().is_some_and(|f| f.missing.is_some()) => {
+            &[("d", "drop it"), ("Esc", "decide later")]
+        }
+        Overlay::Recover(_) => &[("r", "take it back in"), ("d", "drop it"), ("Esc", "decide later")],
         Overlay::ConfirmQuit => &[("w", "save and quit"), ("d", "drop and quit"), ("Esc", "stay")],
     };
     Some(items.iter().map(|(k, w)| ((*k).to_owned(), *w)).collect())

@@ -21,11 +21,12 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         Overlay::Picker(picker) => list(model, picker, area, buffer),
         Overlay::Prompt(prompt) => line(model, prompt, area, buffer),
         Overlay::ConfirmQuit => confirm(model, area, buffer),
+        Overlay::Recover(found) => super::recover::draw(model, found, area, buffer),
     }
 }
 
 /// A box of at most this size in the middle of the screen, the footer left free; gives its inside.
-fn popup(model: &Model, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
+pub(super) fn popup(model: &Model, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
     let room = Rect { height: area.height.saturating_sub(1), ..area };
     let (width, height) = (size.0.min(room.width), size.1.min(room.height));
     let place = Rect { x: room.x + (room.width - width) / 2, y: room.y + (room.height - height) / 2, width, height };
@@ -51,7 +52,7 @@ const PLAIN: ratatui::symbols::border::Set<'static> = ratatui::symbols::border::
     horizontal_bottom: "-",
 };
 
-fn rows(lines: Vec<Line<'_>>, from: usize, inside: Rect, buffer: &mut Buffer) {
+pub(super) fn rows(lines: Vec<Line<'_>>, from: usize, inside: Rect, buffer: &mut Buffer) {
     for (row, line) in lines.into_iter().skip(from).take(usize::from(inside.height)).enumerate() {
         let row = u16::try_from(row).unwrap_or(u16::MAX);
         line.render(Rect { y: inside.y + row, height: 1, ..inside }, buffer);

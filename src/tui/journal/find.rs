@@ -1,0 +1,127 @@
+//! What earlier workbenches left about a record.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use super::files::{ENDING, take};
+use super::writer::sha256_of;
+use crate::session::Session;
+use crate::session::journal::{Entry, Journal, decode};
+use crate::track::{Track, printable};
+
+/// A journal larger than this is none.
+const LARGEST: u64 = 1 << 30;
+
+/// Journals that are looked into at most, the newest first.
+const MOST: usize = 200;
+
+/// Work that was not saved, offered to the user.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// The journal.
+    pub path: PathBuf,
+    /// When its last change was made, for people.
+    pub when: String,
+    /// How many changes are in it.
+    pub changes: usize,
+    /// What takes them back in.
+    pub entries: Vec<Entry>,
+    /// False when its end is torn or of another version.
+    pub complete: bool,
+    /// The session file that the work went on from.
+    pub session: Option<PathBuf>,
+    /// True when that file is not what it was then, or gone.
+    pub session_changed: bool,
+    /// A channel of it that is not loaded: it cannot be taken in without losing something.
+    pub missing: Option<String>,
+}
+
+/// What a search has found.
+#[derive(Debug, Default)]
+pub(super) struct Search {
+    /// Journals about this record, the newest first, with what keeps others from taking them.
+    pub(super) found: Vec<(Found, File)>,
+    /// What the user should know of others.
+    pub(super) notes: Vec<String>,
+}
+
+/// Looks for journals of ended workbenches about the record that is called `record`, and about `file` if the session
+/// was opened from one.
+pub(super) fn search(
+    folder: &Path,
+    record: &str,
+    track: &Track,
+    session: &Session,
+    file: Option<PathBuf>,
+) -> Search {
+    let mut search = Search::default();
+    for (path, time) in journals(folder) {
+        let Some(mut held) = take(&path) else { continue };
+        let Some(journal) = read(&mut held) else { continue };
+        let of_session = journal.header.base.as_ref().map(|b| PathBuf::from(&b.path));
+        if file.is_some() && of_session.is_some() && file != of_session {
+            continue;
+        }
+        let changes = journal.changes();
+        if journal.header.sha256 != track.sha256 || journal.header.rows != track.rows {
+            if journal.header.record == record && changes > 0 {
+                let what = format!("{changes} unsaved changes to an earlier content of this record are kept in");
+                search.notes.push(format!("{what} {}", printable(&path.display().to_string())));
+            }
+            continue;
+        }
+        if changes == 0 {
+            // It ended between its first line and its first change: there is nothing in it.
+            let _ = std::fs::remove_file(&path);
+            continue;
+        }
+        search.found.push((found(path, time, journal, session), held));
+    }
+    search
+}
+
+fn found(path: PathBuf, time: SystemTime, journal: Journal, session: &Session) -> Found {
+    let changes = journal.changes();
+    let unknown = |e: &&Entry| session.plans.iter().all(|p| p.channel != e.channel());
+    let missing = journal.entries.iter().find(unknown).map(|e| e.channel().to_owned());
+    let base = journal.header.base;
+    let session_changed = base.as_ref().is_some_and(|b| b.sha256.is_empty() || sha256_of(Path::new(&b.path)) != b.sha256);
+    Found {
+        path,
+        when: for_people(time),
+        changes,
+        entries: journal.entries,
+        complete: journal.complete,
+        session: base.map(|b| PathBuf::from(b.path)),
+        session_changed,
+        missing,
+    }
+}
+
+/// The journals in a folder with the times of their last changes, the newest first.
+fn journals(folder: &Path) -> Vec<(PathBuf, SystemTime)> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let dated = |entry: std::fs::DirEntry| {
+        let path = entry.path();
+        let about = entry.metadata().ok()?;
+        let fits = about.is_file() && about.len() <= LARGEST && path.extension().is_some_and(|e| e == ENDING);
+        fits.then(|| Some((path, about.modified().ok()?)))?
+    };
+    let mut journals: Vec<_> = entries.flatten().filter_map(dated).collect();
+    journals.sort_by(|a, b| (b.1, &b.0).cmp(&(a.1, &a.0)));
+    journals.truncate(MOST);
+    journals
+}
+
+fn read(file: &mut File) -> Option<Journal> {
+    let mut bytes = Vec::new();
+    file.take(LARGEST).read_to_end(&mut bytes).ok()?;
+    decode(&bytes)
+}
+
+fn for_people(time: SystemTime) -> String {
+    let stamp = jiff::Timestamp::try_from(time).unwrap_or(jiff::Timestamp::UNIX_EPOCH);
+    stamp.strftime("%Y-%m-%d %H:%M UTC").to_string()
+}

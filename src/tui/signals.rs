@@ -1,0 +1,99 @@
+//! Signals, and how the workbench ended.
+
+use std::path::{Path, PathBuf};
+
+use crossbeam_channel::Receiver;
+
+use super::model::Model;
+use crate::error::{Error, Result};
+use crate::track::{Source, printable};
+
+/// A signal, as far as it matters.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Signalled {
+    /// End, because of this signal.
+    End(i32),
+    Suspend,
+    Resumed,
+}
+
+/// The signal that says that the terminal is gone.
+pub(super) const HANG_UP: i32 = 1;
+
+#[cfg(unix)]
+pub(super) fn listen() -> Result<Receiver<Signalled>> {
+    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP};
+    let mut signals = signal_hook::iterator::Signals::new([SIGTERM, SIGHUP, SIGINT, SIGTSTP, SIGCONT])
+        .map_err(|source| Error::Io { action: "listen for", path: "signals".into(), source })?;
+    let (sender, receiver) = crossbeam_channel::unbounded();
+    std::thread::spawn(move || {
+        for signal in signals.forever() {
+            let meaning = match signal {
+                SIGTSTP => Signalled::Suspend,
+                SIGCONT => Signalled::Resumed,
+                other => Signalled::End(other),
+            };
+            if sender.send(meaning).is_err() {
+                return;
+            }
+        }
+    });
+    Ok(receiver)
+}
+
+#[cfg(not(unix))]
+pub(super) fn listen() -> Result<Receiver<Signalled>> {
+    Ok(crossbeam_channel::never())
+}
+
+/// True when an error says that there is no terminal any more.
+pub(super) fn is_gone(error: &Error) -> bool {
+    /// EIO, what a write to a terminal gives whose other end is closed.
+    const INPUT_OUTPUT: i32 = 5;
+    match error {
+        Error::Io { action: "use", source, .. } => {
+            source.raw_os_error() == Some(INPUT_OUTPUT) || source.kind() == std::io::ErrorKind::BrokenPipe
+        }
+        _ => false,
+    }
+}
+
+/// How the workbench ended.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Ended {
+    /// The signal that ended it; none when the user left it.
+    pub signal: Option<i32>,
+    /// What the user should know of work that was not saved; empty when there is none.
+    pub words: String,
+}
+
+impl Ended {
+    /// Ended by `signal`, with the work that was not saved in the journal `kept`, if there is one.
+    pub(super) fn by(signal: i32, model: &Model, kept: Option<&Path>) -> Self {
+        let name = match signal {
+            HANG_UP => "the terminal is gone (SIGHUP)",
+            2 => "interrupted (SIGINT)",
+            15 => "terminated (SIGTERM)",
+            _ => "ended by a signal",
+        };
+        let shown = |path: &Path| printable(&path.display().to_string());
+        let words = match kept {
+            _ if !model.unsaved() => format!("{name}; everything was saved"),
+            Some(path) => {
+                let again = reopened(model).map(|p| format!(" {}", shown(&p))).unwrap_or_default();
+                format!("{name}; unsaved work is kept in {}, `wildpoint{again}` offers it back", shown(path))
+            }
+            None => format!("{name}; what was not saved is lost, since there is no journal"),
+        };
+        Self { signal: Some(signal), words }
+    }
+}
+
+/// What is opened to go on; none for the record that needs no name.
+fn reopened(model: &Model) -> Option<PathBuf> {
+    match (&model.file, &model.track.source) {
+        (Some(file), _) => Some(file.clone()),
+        (None, Source::File(path)) => Some(path.clone()),
+        (None, Source::BuiltIn { .. }) => None,
+    }
+}
