@@ -38,6 +38,8 @@ pub use checks::RowChecks;
 pub use load::{LoadOptions, load};
 pub use number::number_text;
 pub use outputs::Outputs;
+#[cfg(test)]
+pub(crate) use outputs::faults;
 pub use printable::printable;
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;

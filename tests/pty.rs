@@ -3,6 +3,8 @@
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
 
+#[path = "pty/journal.rs"]
+mod journal;
 mod program;
 mod terminal;
 

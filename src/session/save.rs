@@ -38,3 +38,6 @@ fn texts(session: &Session, track: &Track) -> Result<Vec<Vec<(String, String)>>>
     })?;
     Ok(texts)
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,6 +8,9 @@ use flate2::{Compression, GzBuilder};
 use tempfile::NamedTempFile;
 
 use crate::error::{Error, Result};
+use faults::{Disk, point};
+
+pub(crate) mod faults;
 
 /// Several output files. Each is written beside its target under another name; [`Outputs::commit`] gives all of them
 /// their names. Dropped before that, they leave nothing.
@@ -51,12 +54,13 @@ impl Outputs {
         let (target, folder) = self.place(path)?;
         let existing = std::fs::symlink_metadata(&target).ok();
         self.permit(path, &target, existing.as_ref())?;
-        let mut file = hidden().tempfile_in(&folder).map_err(Error::io("write to", &folder))?;
+        let mut file = point().and_then(|()| hidden().tempfile_in(&folder)).map_err(Error::io("write to", &folder))?;
         if let Some(existing) = &existing {
-            file.as_file().set_permissions(existing.permissions()).map_err(Error::io("write", path))?;
+            let permitted = point().and_then(|()| file.as_file().set_permissions(existing.permissions()));
+            permitted.map_err(Error::io("write", path))?;
         }
         let gzipped = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gz"));
-        let mut buffer = BufWriter::with_capacity(1 << 20, file.as_file_mut());
+        let mut buffer = BufWriter::with_capacity(1 << 20, Disk(file.as_file_mut()));
         if gzipped {
             // No time stamp: the same content makes the same file.
             let mut packed = GzBuilder::new().mtime(0).write(&mut buffer, Compression::default());
@@ -67,12 +71,13 @@ impl Outputs {
         }
         buffer.flush().map_err(Error::io("write", path))?;
         drop(buffer);
-        file.as_file().sync_all().map_err(Error::io("write", path))?;
+        point().and_then(|()| file.as_file().sync_all()).map_err(Error::io("write", path))?;
         self.staged.push(Staged { target, folder, file, existed: existing.is_some() });
         Ok(())
     }
 
-    /// Gives all files their names. When one cannot get its name, those before it are taken back.
+    /// Gives all files their names. When one cannot get its name, or the names do not get to the disk, all are taken
+    /// back.
     ///
     /// # Errors
     /// [`Error::Io`]; [`Error::Exists`] when a target has appeared meanwhile.
@@ -92,7 +97,11 @@ impl Outputs {
         folders.sort();
         folders.dedup();
         // The names are on the disk when their folder is.
-        folders.iter().try_for_each(|folder| sync(folder))
+        let synced = folders.iter().try_for_each(|folder| sync(folder));
+        if synced.is_err() {
+            renamed.into_iter().rev().for_each(Renamed::undo);
+        }
+        synced
     }
 
     /// The file that `path` leads to, and its folder.
@@ -137,7 +146,8 @@ impl Staged {
     fn rename(self, force: bool) -> Result<Renamed> {
         let Self { target, folder, file, existed } = self;
         // A second name for the old content, where the file system has such; without it there is no way back.
-        let old = if existed { hidden().make_in(&folder, |name| std::fs::hard_link(&target, name)).ok() } else { None };
+        let old = if existed { link(&folder, &target).ok() } else { None };
+        point().map_err(Error::io("write", &target))?;
         let persisted = if force { file.persist(&target) } else { file.persist_noclobber(&target) };
         match persisted {
             Ok(_) => Ok(Renamed { target, old, existed }),
@@ -171,11 +181,19 @@ fn hidden() -> tempfile::Builder<'static, 'static> {
     builder
 }
 
+fn link(folder: &Path, target: &Path) -> std::io::Result<NamedTempFile<()>> {
+    point()?;
+    hidden().make_in(folder, |name| std::fs::hard_link(target, name))
+}
+
 fn sync(folder: &Path) -> Result<()> {
-    if cfg!(unix) {
-        File::open(folder).and_then(|f| f.sync_all()).map_err(Error::io("write to", folder))?;
+    use std::io::ErrorKind as Kind;
+    let synced = point().and_then(|()| if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) });
+    match synced {
+        // Some network file systems cannot do this to a folder.
+        Err(e) if !matches!(e.kind(), Kind::InvalidInput | Kind::Unsupported) => Err(Error::io("write to", folder)(e)),
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -19,6 +19,7 @@ mod writer;
 
 pub use files::folder;
 pub use find::Found;
+pub(super) use find::counted;
 
 /// How long a frame may wait for the disk: what the screen shows has been written, unless that takes longer.
 const PATIENCE: Duration = Duration::from_millis(10);
@@ -73,7 +74,7 @@ impl Journal {
 
     /// Begins anew: with the plans as they are, of which `carried` changes are not saved, in place of a journal that
     /// they were taken from.
-    fn begin(&mut self, model: &Model, carried: usize, replaces: Option<PathBuf>) {
+    fn begin(&mut self, model: &Model, carried: usize, replaces: Option<(PathBuf, File)>) {
         let Some(desk) = &self.desk else { return };
         let touched = model.session.plans.iter().zip(&model.channels).filter(|(_, c)| c.touched);
         let (scribe, entries) = Scribe::beginning(touched.map(|(plan, _)| plan));
@@ -87,7 +88,8 @@ impl Journal {
             carried,
         };
         // The writer can only be gone when it has panicked, and then the panic has been reported.
-        let _ = desk.orders.send(Order::Begin(Box::new(Begin { header, session: model.file.clone(), entries, replaces })));
+        let _ =
+            desk.orders.send(Order::Begin(Box::new(Begin { header, session: model.file.clone(), entries, replaces })));
     }
 
     /// Takes down what has changed since the last call.
@@ -108,13 +110,13 @@ impl Journal {
     /// Does with a journal that was offered what the user has decided.
     pub(super) fn settle(&mut self, model: &Model, path: &Path, fate: Fate) {
         let at = self.held.iter().position(|(held, _)| held == path);
+        let held = at.map(|at| self.held.remove(at));
         match fate {
-            Fate::Taken { changes } => self.begin(model, changes, Some(path.to_path_buf())),
+            Fate::Taken { changes } => self.begin(model, changes, held),
             // Already gone is as good.
             Fate::Dropped => drop(std::fs::remove_file(path)),
             Fate::Left => {}
         }
-        at.map(|at| self.held.remove(at));
     }
 
     /// Waits until what the screen is about to show has been written, but not long.
@@ -148,3 +150,6 @@ fn record(source: &Source) -> String {
         None => source.name(),
     }
 }
+
+#[cfg(test)]
+mod tests;

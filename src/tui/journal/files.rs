@@ -32,7 +32,8 @@ pub(super) fn name(folder: &Path, record: &str, session: &str) -> PathBuf {
     let session = if session.is_empty() { "record".to_owned() } else { short(session, 8) };
     let stem = format!("{}-{session}-{}", short(record, 16), std::process::id());
     // An earlier process with the same number may have left one.
-    let numbered = |n: u32| folder.join(if n == 0 { format!("{stem}.{ENDING}") } else { format!("{stem}.{n}.{ENDING}") });
+    let numbered =
+        |n: u32| folder.join(if n == 0 { format!("{stem}.{ENDING}") } else { format!("{stem}.{n}.{ENDING}") });
     (0..u32::MAX).map(numbered).find(|path| !path.exists()).unwrap_or_else(|| numbered(u32::MAX))
 }
 

@@ -49,13 +49,7 @@ pub(super) struct Search {
 
 /// Looks for journals of ended workbenches about the record that is called `record`, and about `file` if the session
 /// was opened from one.
-pub(super) fn search(
-    folder: &Path,
-    record: &str,
-    track: &Track,
-    session: &Session,
-    file: Option<PathBuf>,
-) -> Search {
+pub(super) fn search(folder: &Path, record: &str, track: &Track, session: &Session, file: Option<PathBuf>) -> Search {
     let mut search = Search::default();
     for (path, time) in journals(folder) {
         let Some(mut held) = take(&path) else { continue };
@@ -67,7 +61,8 @@ pub(super) fn search(
         let changes = journal.changes();
         if journal.header.sha256 != track.sha256 || journal.header.rows != track.rows {
             if journal.header.record == record && changes > 0 {
-                let what = format!("{changes} unsaved changes to an earlier content of this record are kept in");
+                let (what, are) = (counted(changes, "unsaved change"), if changes == 1 { "is" } else { "are" });
+                let what = format!("{what} to an earlier content of this record {are} kept in");
                 search.notes.push(format!("{what} {}", printable(&path.display().to_string())));
             }
             continue;
@@ -87,7 +82,8 @@ fn found(path: PathBuf, time: SystemTime, journal: Journal, session: &Session) -
     let unknown = |e: &&Entry| session.plans.iter().all(|p| p.channel != e.channel());
     let missing = journal.entries.iter().find(unknown).map(|e| e.channel().to_owned());
     let base = journal.header.base;
-    let session_changed = base.as_ref().is_some_and(|b| b.sha256.is_empty() || sha256_of(Path::new(&b.path)) != b.sha256);
+    let session_changed =
+        base.as_ref().is_some_and(|b| b.sha256.is_empty() || sha256_of(Path::new(&b.path)) != b.sha256);
     Found {
         path,
         when: for_people(time),
@@ -124,4 +120,9 @@ fn read(file: &mut File) -> Option<Journal> {
 fn for_people(time: SystemTime) -> String {
     let stamp = jiff::Timestamp::try_from(time).unwrap_or(jiff::Timestamp::UNIX_EPOCH);
     stamp.strftime("%Y-%m-%d %H:%M UTC").to_string()
+}
+
+/// A number with its noun.
+pub(in crate::tui) fn counted(n: usize, noun: &str) -> String {
+    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }

@@ -35,8 +35,8 @@ pub(super) struct Begin {
     pub(super) session: Option<PathBuf>,
     /// The plans as they are.
     pub(super) entries: Vec<Entry>,
-    /// A journal that is in those entries, to be removed once they are on the disk.
-    pub(super) replaces: Option<PathBuf>,
+    /// A journal that is in those entries, held until they are on the disk and then removed.
+    pub(super) replaces: Option<(PathBuf, File)>,
 }
 
 /// What the thread keeps.
@@ -92,17 +92,17 @@ impl Writer {
         self.end(remove)
     }
 
-    fn begin(&mut self, begin: Box<Begin>) {
+    fn begin(&mut self, mut begin: Box<Begin>) {
         // What is in the file is saved; what was not is in the entries.
-        let old = self.open.take();
-        self.failed = false;
+        let old = self.open.take().map(|o| (o.path, o.file));
+        let replaces = begin.replaces.take();
         let at_once = begin.header.carried > 0;
-        let replaces = begin.replaces.clone();
         self.begin = Some(begin);
+        self.failed = false;
         if at_once && !self.attempt(Self::create) {
             return;
         }
-        for path in old.into_iter().map(|o| o.path).chain(replaces) {
+        for (path, _held) in old.into_iter().chain(replaces) {
             let _ = std::fs::remove_file(path);
         }
     }

@@ -2,7 +2,7 @@
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::super::journal::Found;
+use super::super::journal::{Found, counted};
 use super::super::message::{Effect, Fate};
 use super::super::model::{Model, Overlay, Tone};
 use crate::session::{Edit, journal};
@@ -22,7 +22,7 @@ pub(super) fn key(model: &mut Model, mut offered: Vec<Found>, key: KeyEvent) -> 
         }
         KeyCode::Char('d') => {
             let first = offered.remove(0);
-            model.say(Tone::Done, format!("dropped {} changes of {}", first.changes, first.when));
+            model.say(Tone::Done, format!("dropped {} of {}", counted(first.changes, "change"), first.when));
             if !offered.is_empty() {
                 model.overlay = Overlay::Recover(offered);
             }
@@ -61,7 +61,9 @@ fn take(model: &mut Model, found: Found) -> Vec<Effect> {
     if model.file.is_none() && !found.session_changed {
         model.file = found.session;
     }
-    model.say(Tone::Done, format!("{} changes are back, not saved yet · u undoes them one by one", found.changes));
+    let are = if found.changes == 1 { "is" } else { "are" };
+    let what = counted(found.changes, "change");
+    model.say(Tone::Done, format!("{what} {are} back, not saved yet · u undoes one by one"));
     let fate = Fate::Taken { changes: found.changes };
     vec![Effect::Offered { path: found.path, fate }, Effect::Analyse(model.shown)]
 }

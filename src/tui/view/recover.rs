@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::super::journal::Found;
+use super::super::journal::{Found, counted};
 use super::super::model::Model;
 use super::overlay::{popup, rows};
 use crate::track::printable;
@@ -22,10 +22,8 @@ fn lines(model: &Model, found: &Found, more: usize) -> Vec<Line<'static>> {
     let key = |k: &str, words: &str| {
         Line::from(vec![Span::styled(format!("{k:5}"), theme.key), Span::styled(words.to_owned(), theme.text)])
     };
-    let what = match found.changes {
-        1 => "1 change to this record, of".to_owned(),
-        n => format!("{n} changes to this record, the last of"),
-    };
+    let last = if found.changes == 1 { "" } else { "the last " };
+    let what = format!("{} to this record, {last}of", counted(found.changes, "change"));
     let mut lines = vec![Line::styled(format!("{what} {}, was never saved.", found.when), theme.warning)];
     let mut note = |text: String| lines.push(Line::styled(text, theme.dim));
     if let Some(session) = &found.session {

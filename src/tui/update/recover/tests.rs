@@ -26,11 +26,7 @@ fn found(name: &str) -> Found {
         path: name.into(),
         when: "2026-01-02 03:04 UTC".into(),
         changes: 3,
-        entries: vec![
-            decisions(60, Some(decision.clone())),
-            decisions(70, Some(decision)),
-            decisions(60, None),
-        ],
+        entries: vec![decisions(60, Some(decision.clone())), decisions(70, Some(decision)), decisions(60, None)],
         complete: true,
         session: Some("/nowhere/a.toml".into()),
         session_changed: false,
