@@ -1,6 +1,7 @@
 //! The terminal: taken over at the start, given back at every end.
 
 use std::io::{BufWriter, Stdout, Write};
+use std::mem::ManuallyDrop;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use ratatui::Terminal;
@@ -24,8 +25,9 @@ const BUFFER: usize = 64 << 10;
 /// True while the terminal is ours.
 static TAKEN: AtomicBool = AtomicBool::new(false);
 
-/// The screen of the workbench.
-pub(super) struct Screen(Terminal<CrosstermBackend<BufWriter<Stdout>>>);
+/// The screen of the workbench. It gives the terminal back itself: what is inside is never dropped, since its own
+/// `Drop` complains on standard error when it cannot show the cursor, which panics where the whole terminal is gone.
+pub(super) struct Screen(ManuallyDrop<Terminal<CrosstermBackend<BufWriter<Stdout>>>>);
 
 impl Screen {
     /// Takes the terminal over.
@@ -35,7 +37,7 @@ impl Screen {
         give_back_on_panic();
         enter()?;
         let backend = CrosstermBackend::new(BufWriter::with_capacity(BUFFER, std::io::stdout()));
-        Terminal::new(backend).map(Self).map_err(failed)
+        Terminal::new(backend).map(|terminal| Self(ManuallyDrop::new(terminal))).map_err(failed)
     }
 
     /// Columns and rows.

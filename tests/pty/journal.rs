@@ -1,5 +1,6 @@
 //! Work that was not saved outlives the workbench, however it ends.
 
+use std::io::{Read as _, Write as _};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -229,7 +230,7 @@ fn reference(keys: &str) -> Vec<String> {
 #[test]
 fn killed_at_any_moment_at_most_the_last_key_is_missing() {
     let mut random = Pcg64Mcg::seed_from_u64(7);
-    for round in 0..5 {
+    for round in 0..25 {
         let desk = Desk::new();
         let mut terminal = desk.open("demo.csv");
         let mut typed = String::from("ra");
@@ -264,4 +265,36 @@ fn killed_at_any_moment_at_most_the_last_key_is_missing() {
             "round {round}, {typed} and {last}: {back:#?}\n{with:#?}\n{without:#?}"
         );
     }
+}
+
+#[test]
+fn a_terminal_that_vanishes_leaves_the_work() {
+    use portable_pty::{CommandBuilder, PtySize, native_pty_system};
+    let desk = Desk::new();
+    let size = PtySize { rows: SIZE.1, cols: SIZE.0, pixel_width: 0, pixel_height: 0 };
+    let pair = native_pty_system().openpty(size).unwrap();
+    let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_wildpoint"));
+    command.arg("demo.csv");
+    command.cwd(desk.folder.path(""));
+    command.env("XDG_STATE_HOME", desk.state.path());
+    command.env("TERM", "xterm-256color");
+    let mut child = pair.slave.spawn_command(command).unwrap();
+    drop(pair.slave);
+    let (mut reader, mut writer) = (pair.master.try_clone_reader().unwrap(), pair.master.take_writer().unwrap());
+    let (mut screen, mut chunk) =
+        (vt100::Parser::new(size.rows.try_into().unwrap(), size.cols.try_into().unwrap(), 0), [0; 4096]);
+    let mut read_until = |wanted: &str| {
+        while !screen.screen().contents().contains(wanted) {
+            let read = reader.read(&mut chunk).unwrap();
+            assert_ne!(read, 0, "the program has ended");
+            screen.process(&chunk[..read]);
+        }
+    };
+    read_until("5 flag 1 of ");
+    writer.write_all(b"a").unwrap();
+    read_until("accepted row 61");
+    // All that is open on this side goes: the terminal window is closed.
+    drop((reader, writer, pair.master));
+    assert_eq!(child.wait().unwrap().exit_code(), 129);
+    overlay(&desk.start("demo.csv"));
 }
