@@ -80,7 +80,7 @@ fn what_was_killed_is_offered_and_taken_back_in() {
 
     let mut terminal = desk.start("demo.csv");
     overlay(&terminal);
-    terminal.wait_for("4 changes to this record, the last of");
+    terminal.wait_for("4 changes were never saved, the last of");
     terminal.keys("r");
     terminal.wait_for("4 changes are back");
     terminal.look(|screen| assert!(title(screen).contains("[+]"), "{}", screen.contents()));

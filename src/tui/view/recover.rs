@@ -22,9 +22,9 @@ fn lines(model: &Model, found: &Found, more: usize) -> Vec<Line<'static>> {
     let key = |k: &str, words: &str| {
         Line::from(vec![Span::styled(format!("{k:5}"), theme.key), Span::styled(words.to_owned(), theme.text)])
     };
-    let last = if found.changes == 1 { "" } else { "the last " };
-    let what = format!("{} to this record, {last}of", counted(found.changes, "change"));
-    let mut lines = vec![Line::styled(format!("{what} {}, was never saved.", found.when), theme.warning)];
+    let (are, last) = if found.changes == 1 { ("was", "") } else { ("were", "the last ") };
+    let what = format!("{} {are} never saved, {last}of {}.", counted(found.changes, "change"), found.when);
+    let mut lines = vec![Line::styled(what, theme.warning)];
     let mut note = |text: String| lines.push(Line::styled(text, theme.dim));
     if let Some(session) = &found.session {
         let name = session.file_name().unwrap_or(session.as_os_str()).to_string_lossy().into_owned();
