@@ -14,6 +14,9 @@ use crate::track::{Track, printable};
 /// A journal larger than this is none.
 const LARGEST: u64 = 1 << 30;
 
+/// The first line is within so many bytes.
+const HEAD: u64 = 16 << 10;
+
 /// Journals that are looked into at most, the newest first.
 const MOST: usize = 200;
 
@@ -52,15 +55,20 @@ pub(super) struct Search {
 pub(super) fn search(folder: &Path, record: &str, track: &Track, session: &Session, file: Option<PathBuf>) -> Search {
     let mut search = Search::default();
     for (path, time) in journals(folder) {
-        let Some(mut held) = take(&path) else { continue };
-        let Some(journal) = read(&mut held) else { continue };
+        // Most are about other records: a look at the first line shows it, and nobody is kept from them meanwhile.
+        let concerns = |j: &Journal| j.header.sha256 == track.sha256 || j.header.record == record;
+        if !File::open(&path).ok().and_then(|file| read(file, HEAD)).is_some_and(|head| concerns(&head)) {
+            continue;
+        }
+        let Some(held) = take(&path) else { continue };
+        let Some(journal) = read(&held, LARGEST) else { continue };
         let of_session = journal.header.base.as_ref().map(|b| PathBuf::from(&b.path));
         if file.is_some() && of_session.is_some() && file != of_session {
             continue;
         }
         let changes = journal.changes();
         if journal.header.sha256 != track.sha256 || journal.header.rows != track.rows {
-            if journal.header.record == record && changes > 0 {
+            if changes > 0 {
                 let (what, are) = (counted(changes, "unsaved change"), if changes == 1 { "is" } else { "are" });
                 let what = format!("{what} to an earlier content of this record {are} kept in");
                 search.notes.push(format!("{what} {}", printable(&path.display().to_string())));
@@ -111,9 +119,9 @@ fn journals(folder: &Path) -> Vec<(PathBuf, SystemTime)> {
     journals
 }
 
-fn read(file: &mut File) -> Option<Journal> {
+fn read(file: impl Read, most: u64) -> Option<Journal> {
     let mut bytes = Vec::new();
-    file.take(LARGEST).read_to_end(&mut bytes).ok()?;
+    file.take(most).read_to_end(&mut bytes).ok()?;
     decode(&bytes)
 }
 

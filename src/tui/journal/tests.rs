@@ -149,3 +149,26 @@ fn a_clean_end_leaves_nothing() {
     bench.journal.catch_up();
     assert_eq!((bench.journal.end(true), journals(folder.path())), (None, 0));
 }
+
+#[test]
+fn what_lies_about_in_the_folder_is_neither_offered_nor_touched() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = Bench::open(folder.path());
+    bench.keys("aar");
+    let own = bench.journal.end(false).unwrap();
+    let at = |name: &str| folder.path().join("journal").join(name);
+    let good = std::fs::read_to_string(&own).unwrap();
+    std::fs::write(at("empty.journal"), "").unwrap();
+    std::fs::write(at("torn.journal"), &good[..30]).unwrap();
+    std::fs::write(at("noise.journal"), [0xff; 5000]).unwrap();
+    std::fs::write(at("forged.journal"), good.replacen("wildpoint", "wildcard", 1)).unwrap();
+    std::fs::write(at("notes.txt"), &good).unwrap();
+    std::fs::create_dir(at("folder.journal")).unwrap();
+    let before = journals(folder.path());
+    let mut again = Bench::open(folder.path());
+    let Overlay::Recover(found) = &again.model.overlay else { panic!("the good one is offered") };
+    assert_eq!(found.iter().map(|f| &f.path).collect::<Vec<_>>(), [&own]);
+    again.keys("d");
+    drop(again.journal);
+    assert_eq!((journals(folder.path()), own.exists()), (before - 1, false));
+}
