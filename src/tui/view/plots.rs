@@ -211,17 +211,16 @@ impl<'a> Plots<'a> {
         });
         let nothing = Pyramid::default();
         let pyramid = self.drawn.map_or(&nothing, |d| &d.ratios);
-        let ratio = |i: usize| self.drawn.and_then(|d| d.ratio(&self.series, i));
+        let ratio = |i: usize| self.drawn.and_then(|d| d.residual(&self.series, i));
         let cursor = Some(state.cursor);
-        let top = ResidualPlot::TOP;
-        let widget = ResidualPlot { columns, ratio: &ratio, pyramid, top, theme, glyphs, cursor };
-        let what = if widget.is_signed() {
-            "in tolerances, flagged from ±1"
-        } else {
-            "worst per column, in tolerances, flagged from 1"
-        };
-        let k = self.drawn.and_then(|d| tolerance_words(d, &self.series, state.cursor)).unwrap_or_default();
-        let words = [Words::styled(format!("{what}  "), theme.dim), Words::styled(k, theme.dim)];
+        let threshold = self.drawn.map_or(1.0, |d| d.threshold);
+        let top = ResidualPlot::top_for(threshold);
+        let widget = ResidualPlot { columns, ratio: &ratio, pyramid, threshold, top, theme, glyphs, cursor };
+        let unit = if self.drawn.is_some_and(Drawn::in_scales) { "scales" } else { "tolerances" };
+        let what = if widget.is_signed() { "in" } else { "worst per column in" };
+        let at = format!("{what} {unit}, flagged from {}  ", short(threshold));
+        let tolerance = self.drawn.and_then(|d| tolerance_words(d, &self.series, state.cursor)).unwrap_or_default();
+        let words = [Words::styled(at, theme.dim), Words::styled(tolerance, theme.dim)];
         heading(model, Panel::Residual, &words, head, buffer);
         widget.render(body, buffer);
     }
