@@ -268,8 +268,8 @@ fn bytes_for(terminal: &mut Terminal, keys: &str, shown: &str) -> usize {
 #[test]
 fn few_bytes_go_over_the_wire() {
     let (folder, mut terminal) = workbench(WIDE);
-    // This only holds what has been reached (1232 and 871); the bar of the design is in the test below.
-    let steps = [("k 4.0 → 4.1", 1400), ("k 4.1 → 4.2", 1100)];
+    // This only holds what has been reached (778, and less once the queue stays as it is); the bar of the design is in the test below.
+    let steps = [("k 4.0 → 4.1", 900), ("k 4.1 → 4.2", 900)];
     for (shown, most) in steps {
         let bytes = bytes_for(&mut terminal, ".", shown);
         assert!(bytes < most, "a threshold step takes {bytes} bytes");
@@ -288,7 +288,7 @@ fn few_bytes_go_over_the_wire() {
 }
 
 #[test]
-#[ignore = "not reached yet: residuals and queue are in tolerances, so that every step of k redraws them all"]
+#[ignore = "not reached by a step that adds a flag above: the rows of the queue move"]
 fn a_threshold_step_keeps_to_the_bar_of_the_design() {
     let (_folder, mut terminal) = workbench(WIDE);
     for shown in ["k 4.0 → 4.1", "k 4.1 → 4.2"] {

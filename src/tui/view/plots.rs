@@ -219,17 +219,10 @@ impl<'a> Plots<'a> {
         let unit = if self.drawn.is_some_and(Drawn::in_scales) { "scales" } else { "tolerances" };
         let what = if widget.is_signed() { "in" } else { "worst per column in" };
         let at = format!("{what} {unit}, flagged from {}  ", short(threshold));
-        let tolerance = self.drawn.and_then(|d| tolerance_words(d, &self.series, state.cursor)).unwrap_or_default();
-        let words = [Words::styled(at, theme.dim), Words::styled(tolerance, theme.dim)];
+        let words = [Words::styled(at, theme.dim)];
         heading(model, Panel::Residual, &words, head, buffer);
         widget.render(body, buffer);
     }
-}
-
-/// The tolerance at the cursor, in the units of the channel.
-fn tolerance_words(drawn: &Drawn, series: &Series<'_>, cursor: usize) -> Option<String> {
-    let h = drawn.outcome.detection.judged.tolerance.get(cursor).copied().filter(|h| *h > 0.0)?;
-    (cursor < series.len()).then(|| format!("tolerance here {}", short(h)))
 }
 
 fn take_bottom(rest: &mut Rect) -> Rect {

@@ -74,7 +74,7 @@ fn right_side(model: &Model) -> Line<'static> {
     }
     // The mark of an old result stands where a blank is without it: the counts stay put while a knob is turned.
     let old = state.stale && state.drawn.is_some();
-    let unsaved = if model.unsaved() { "[+] " } else { "" };
+    let unsaved = if model.unsaved() { "[+] " } else { "    " };
     spans.push(Span::styled(format!("{}{unsaved}", if old { '…' } else { ' ' }), theme.warning));
     Line::from(spans)
 }
