@@ -7,11 +7,11 @@ use clap::CommandFactory;
 
 use crate::cli::{Cli, Command, Load, OutputArgs};
 use crate::error::{Error, Result};
-use crate::experiment;
 use crate::report::Inspection;
 use crate::track::{Source, load};
 
 mod clean;
+mod experiments;
 mod methods;
 mod replay;
 
@@ -45,10 +45,8 @@ pub fn run(command: Command, out: &mut dyn Write) -> Result<Ending> {
             }
         }
         Command::Methods { id, json, markdown } => methods::run(id.as_deref(), json, markdown, out),
-        Command::Simulate { experiment, seed } => {
-            let experiment = experiment::find(&experiment)?;
-            print(out, &(experiment.csv)(seed.unwrap_or(experiment.seed)))
-        }
+        Command::Simulate(args) => experiments::simulate(&args, out),
+        Command::Reproduce(args) => experiments::reproduce(&args, out),
         Command::Completions { shell } => {
             // Generated first and printed then: the generator panics where it cannot write, at a closed pipe say.
             let mut script = Vec::new();

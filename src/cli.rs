@@ -10,6 +10,10 @@ use crate::repair;
 use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
 use crate::track::{Delimiter, LoadOptions};
 
+mod experiments;
+
+pub use experiments::{ReproduceArgs, SimulateArgs};
+
 /// Find, review and repair wild points of tracking records.
 ///
 /// Without a command: opens the workbench on FILE, on a SESSION saved before, or on the built-in demonstration
@@ -127,14 +131,10 @@ pub enum Command {
         #[arg(long, hide = true)]
         markdown: bool,
     },
-    /// Write simulated data.
-    Simulate {
-        /// Which.
-        experiment: String,
-        /// Seed of the random numbers.
-        #[arg(long)]
-        seed: Option<u64>,
-    },
+    /// Write the data of a published experiment.
+    Simulate(SimulateArgs),
+    /// Run the published experiments and print their tables beside ours.
+    Reproduce(ReproduceArgs),
     /// Print shell completions.
     Completions {
         /// The shell.
@@ -209,6 +209,10 @@ pub struct Shared {
     /// Channel that measures the rate of the judged one, for methods that need one.
     #[arg(long, value_name = "COLUMN")]
     pub rate: Option<String>,
+    /// Column of outlier-free values, which is not judged: the summary of `clean` then has the final error of the
+    /// first judged channel, sqrt(mean((clean - reference)^2)) over the samples that have a value in the output.
+    #[arg(long, value_name = "COLUMN")]
+    pub reference: Option<String>,
     /// Method (see `wildpoint methods`).
     #[arg(long, value_name = "ID", default_value = DEFAULT_METHOD)]
     pub method: String,

@@ -20,15 +20,25 @@ pub(super) fn run(
 ) -> Result<Ending> {
     set_threads(shared.threads)?;
     let setup = shared.setup()?;
-    let options = shared.load.options(shared.rate.as_deref());
+    let mut options = shared.load.options(shared.rate.as_deref());
+    if let Some(reference) = &shared.reference
+        && !options.channels.is_empty()
+        && !options.channels.contains(reference)
+    {
+        options.channels.push(reference.clone());
+    }
     let track = load(&Source::File(file.to_path_buf()), &options)?;
     let mut session = Session::new(&track, shared.load.options(None), &setup);
     // A rate channel that was loaded beside the named ones is not judged.
     if !shared.load.channel.is_empty() {
         session.plans.retain(|p| shared.load.channel.contains(&p.channel) || shared.rate.as_ref() != Some(&p.channel));
     }
+    session.plans.retain(|p| shared.reference.as_ref() != Some(&p.channel));
     let analysed = Analysed::of(&session, &track, &Stop::never())?;
     let mut summary = Summary::of(&track, &session, &analysed);
+    if let Some(reference) = &shared.reference {
+        summary.compare_with(&track, &analysed, reference)?;
+    }
     let inputs: Vec<&Path> = track.source.path().into_iter().collect();
     let mut files = Outputs::new(outputs.force, &inputs);
     stage(&mut files, outputs, &track, &session, &analysed, &mut summary)?;
