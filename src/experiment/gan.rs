@@ -50,24 +50,26 @@ fn record(seed: u64) -> Record {
     Record::new(Signal::new("t_s", 1, t), vec![Signal::with_errors("y_m", 2, &clean, &errors)], wild)
 }
 
-/// What stands in the table: its label and the keys that differ from the defaults.
-const METHODS: [(&str, &[(&str, &str)]); 4] = [
-    (COAST, &[("patch", "1000")]),
-    (SPLINE, &[("fill", "spline")]),
-    (POLYNOMIAL, &[("fill", "polynomial")]),
-    (OFF, &[("c", "1000")]),
+/// What stands in the table: its label, its preset, and the keys that differ from it.
+const METHODS: [(&str, Preset, &[(&str, &str)]); 5] = [
+    (OFF, Preset::Paper, &[("c", "1000")]),
+    (COAST, Preset::Paper, &[("patch", "1000")]),
+    (SPLINE, Preset::Paper, &[]),
+    (CAPPED, Preset::Default, &[("fill", "spline")]),
+    (POLYNOMIAL, Preset::Default, &[]),
 ];
-const COAST: &str = "test, prediction put in";
-const SPLINE: &str = "test, spline infill";
-const POLYNOMIAL: &str = "test, polynomial infill";
 const OFF: &str = "no test";
+const COAST: &str = "paper, prediction put in";
+const SPLINE: &str = "paper, spline infill";
+const CAPPED: &str = "defaults, spline infill";
+const POLYNOMIAL: &str = "defaults, polynomial infill";
 
 #[expect(clippy::cast_precision_loss, reason = "counts of 500 samples")]
 fn trial(record: &Record) -> Result<Figures> {
     let trial = Trial::of(record)?;
     let mut figures = Vec::new();
-    for (label, keys) in METHODS {
-        let outcome = trial.judge(&setup("kalman", Preset::Default, keys)?)?;
+    for (label, preset, keys) in METHODS {
+        let outcome = trial.judge(&setup("kalman", preset, keys)?)?;
         let tally = trial.tally(&outcome);
         let error = trial.repair_error(&outcome, Wild::Patch).unwrap_or(f64::NAN);
         let after = after_the_patch(record, &outcome.detection.judged.expected);
@@ -102,7 +104,7 @@ const REPAIR: usize = 4;
 const AFTER: usize = 5;
 
 fn conclude(runs: Runs<'_>) -> (Vec<Table>, Vec<Finding>) {
-    let row = |&(label, _): &(&'static str, &[(&str, &str)])| {
+    let row = |&(label, ..): &(&'static str, Preset, &[(&str, &str)])| {
         vec![
             Cell::text(label),
             Cell::number(runs.mean(label, PATCHED), 2),

@@ -183,11 +183,22 @@ fn findings(runs: Runs<'_>) -> Vec<Finding> {
             measured: format!("default settings, km: {}", by_method(at_50)),
         },
         Finding {
-            id: "template-grows",
-            statement: "The error of template convolution grows with the window, up to 100",
-            holds: (at_50..at_100).all(|i| error(TEMPLATE, i) < error(TEMPLATE, i + 1))
-                && error(TEMPLATE, at_20) < error(TEMPLATE, at_50),
+            id: "template-grows-from-50",
+            statement: "The error of template convolution grows with the window and is the largest (from 50 to 100)",
+            holds: error(TEMPLATE, at_50) < error(TEMPLATE, at_100) && worst(TEMPLATE, at_100),
             measured: format!("default settings, km by window: {}", by_window(TEMPLATE)),
+        },
+        Finding {
+            id: "template-grows-from-10",
+            statement: "The error of template convolution grows with the window (from 10 on)",
+            holds: (at_20..=at_100).all(|i| error(TEMPLATE, i - 1) < error(TEMPLATE, i)),
+            measured: format!(
+                "default settings: {:.3} km at 10, {:.3} at 20, {:.3} at 30: at first a longer line stands outliers \
+                 better, and only then does it lag",
+                error(TEMPLATE, at_20 - 1),
+                error(TEMPLATE, at_20),
+                error(TEMPLATE, at_20 + 1)
+            ),
         },
         Finding {
             id: "median-best-at-20-and-30",
@@ -204,14 +215,14 @@ fn findings(runs: Runs<'_>) -> Vec<Finding> {
         Finding {
             id: "eq-1-as-printed",
             statement: "With 3 sigma by eq. (1) the methods remove outliers at windows of 7, 8 and 10",
-            holds: found_by_paper > 0.0,
+            holds: found_by_paper >= 1.0,
             measured: format!(
                 "paper settings: {found_by_paper:.0} found by all four together; a residual test whose scale includes \
                  the tested sample reaches at most 2.27, 2.47 and 2.85 scales in windows of 7, 8 and 10"
             ),
         },
         Finding {
-            id: "poly-second-at-50",
+            id: "poly-second",
             statement: "Over the windows up to 100 the polynomial comes second after the sliding median",
             holds: [at_20, at_20 + 1, at_50, at_100].iter().all(|&i| {
                 error(MEDIAN, i) <= error(POLY, i) && error(POLY, i) <= error(MEAN, i).min(error(TEMPLATE, i))

@@ -4,18 +4,19 @@ use super::super::record::{Record, Signal, Wild};
 use crate::experiment::Random;
 
 /// What the stand-in is.
-pub(super) const STAND_IN: &str = "The document flies a ballistic missile in a commercial simulator and does not say on which path. Here: free \
-     flight of a lofted shot about a spherical Earth, 2384 s at 1 Hz, seen by a radar 300 km beside the launch, and \
-     the height that follows from range (100 m) and elevation (0.1 deg) to first order. 10 % outliers: half alone, \
-     half in patches of 2 to 8 of about the same error, 3 to 10 km either way. Paper settings as the document \
-     prescribes them, and the defaults of this program.";
+pub(super) const STAND_IN: &str = "The document flies a ballistic missile in a commercial simulator and says neither \
+     on which path nor how large the outliers are. Here: free flight of a lofted shot about a spherical Earth, 2384 s \
+     at 1 Hz, seen by a radar about 1000 km away, and the height that follows from range (100 m) and elevation (0.1 \
+     deg) to first order, with noise of 1.4 to 1.8 km. 10 % outliers: half alone, half in patches of 2 to 8 of about \
+     the same error, 5 to 30 km either way; the document's errors are smaller as a whole. Paper settings as the \
+     document prescribes them, and the defaults of this program.";
 
 const SAMPLES: usize = 2384;
 /// Half of them alone, half in patches.
 const OUTLIERS: usize = 238;
 const PATCH: (usize, usize) = (2, 8);
 /// Sizes of the errors, km.
-const SIZE: (f64, f64) = (4.0, 20.0);
+const SIZE: (f64, f64) = (5.0, 30.0);
 
 /// km and km^3/s^2.
 const EARTH: f64 = 6371.0;
@@ -25,7 +26,7 @@ const UP: f64 = 5.9;
 const ALONG: f64 = 0.25;
 const START_HEIGHT: f64 = 100.0;
 /// Place of the radar, km on the ground: along the track and beside it.
-const RADAR: (f64, f64) = (300.0, 300.0);
+const RADAR: (f64, f64) = (600.0, 800.0);
 /// Noise of range in km and of elevation in radians.
 const RANGE_NOISE: f64 = 0.1;
 const ANGLE_NOISE: f64 = 0.1 * std::f64::consts::PI / 180.0;
