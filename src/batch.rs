@@ -12,6 +12,7 @@ use crate::track::{Source, load};
 
 mod clean;
 mod experiments;
+mod inject;
 mod methods;
 mod replay;
 
@@ -47,6 +48,7 @@ pub fn run(command: Command, out: &mut dyn Write) -> Result<Ending> {
         Command::Methods { id, json, markdown } => methods::run(id.as_deref(), json, markdown, out),
         Command::Simulate(args) => experiments::simulate(&args, out),
         Command::Reproduce(args) => experiments::reproduce(&args, out),
+        Command::Inject(args) => inject::run(&args, out),
         Command::Completions { shell } => {
             // Generated first and printed then: the generator panics where it cannot write, at a closed pipe say.
             let mut script = Vec::new();

@@ -12,7 +12,7 @@ use crate::track::{Delimiter, LoadOptions};
 
 mod experiments;
 
-pub use experiments::{ReproduceArgs, SimulateArgs};
+pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
 
 /// Find, review and repair wild points of tracking records.
 ///
@@ -135,6 +135,8 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Run the published experiments and print their tables beside ours.
     Reproduce(ReproduceArgs),
+    /// Add known wild points to a record, with truth.
+    Inject(InjectArgs),
     /// Print shell completions.
     Completions {
         /// The shell.

@@ -11,6 +11,7 @@ pub mod demo;
 pub mod gan;
 pub mod hou_offline;
 pub mod hou_realtime;
+pub mod inject;
 
 pub mod jiang;
 pub mod jin;
@@ -20,6 +21,7 @@ pub mod record;
 pub mod reproduction;
 pub mod trial;
 
+pub use inject::{Injection, Plan};
 pub use random::Random;
 pub use record::{Record, Signal, Wild};
 pub use reproduction::{Cell, Figures, Finding, Reproduction, Runs, Table};

@@ -32,6 +32,7 @@ mod stamp;
 mod text;
 mod timing;
 mod tokens;
+mod widen;
 
 pub use cells::Cells;
 pub use checks::RowChecks;
@@ -42,6 +43,7 @@ pub use printable::printable;
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use series::{Samples, Series, lost_samples};
+pub use widen::{NewColumn, widen};
 
 /// Where the bytes of a record come from.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,8 +1,12 @@
-//! What can be typed after `simulate` and `reproduce`.
+//! What can be typed after `simulate`, `reproduce` and `inject`.
 
 use std::path::PathBuf;
 
 use clap::Args;
+
+use super::Load;
+use crate::experiment::Plan;
+use crate::experiment::inject::{Amount, Patches, Span, Step};
 
 /// Write the data of a published experiment as CSV.
 ///
@@ -50,6 +54,69 @@ pub struct ReproduceArgs {
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
+}
+
+/// Add known wild points to a record, so that methods can be compared on it.
+///
+/// The channel (the first, or the one named with --channel) gets wild points at random places; everything else stays
+/// byte for byte. Two columns are added at the right: CHANNEL_raw, the channel as it was, and CHANNEL_truth, in which 1
+/// marks a wild point (and what a truth column of the record marked before). Sizes count in noise scales
+/// of the channel, measured from third differences. Then: wildpoint clean OUT --channel CHANNEL --reference
+/// CHANNEL_raw tells how many a method finds and how close its repair comes (steps are in no CHANNEL_raw).
+#[derive(Debug, Clone, Args)]
+pub struct InjectArgs {
+    /// The record.
+    pub file: PathBuf,
+    /// How to load it.
+    #[command(flatten)]
+    pub load: Load,
+    /// Seed of the random numbers: the same seed puts in the same points.
+    #[arg(long, default_value = "1")]
+    pub seed: u64,
+    /// Wild points that stand alone: a number, or a part of the samples.
+    #[arg(long, value_name = "N|N%", default_value = "1%")]
+    pub isolated: Amount,
+    /// Wild points in patches of neighbours with about the same error: how many, of how many samples.
+    #[arg(long, value_name = "NxLOW..HIGH")]
+    pub patches: Option<Patches>,
+    /// A lasting change of the level, up or down, at a random place or so many seconds after the start; repeatable. It
+    /// is real: truth does not mark it, and a method that flags it raises a false alarm.
+    #[arg(long, value_name = "SIZE[@SECONDS]", allow_hyphen_values = true)]
+    pub step: Vec<Step>,
+    /// Sizes of the wild points, either way, in noise scales.
+    #[arg(long, value_name = "LOW..HIGH", default_value = "5..20")]
+    pub amplitude: Span,
+    /// The noise scale in the channel's units [default: measured].
+    #[arg(long, value_name = "NUMBER", value_parser = scale)]
+    pub sigma: Option<f64>,
+    /// Write the record here.
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// Overwrite an existing output (never the input).
+    #[arg(long)]
+    pub force: bool,
+    /// Print what was put in as JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl InjectArgs {
+    /// What is to be put in.
+    #[must_use]
+    pub fn plan(&self) -> Plan {
+        Plan {
+            seed: self.seed,
+            isolated: self.isolated,
+            patches: self.patches.unwrap_or_default(),
+            steps: self.step.clone(),
+            amplitude: self.amplitude,
+            sigma: self.sigma,
+        }
+    }
+}
+
+fn scale(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0).ok_or_else(|| "a number above 0 is wanted".to_owned())
 }
 
 fn runs(text: &str) -> Result<usize, String> {

@@ -194,12 +194,14 @@ fn conclude(runs: Runs<'_>) -> (Vec<Table>, Vec<Finding>) {
         Finding {
             id: "diff-median-unstable",
             statement: "The difference-assisted median is unstable when the data fluctuate",
-            holds: criteria.iter().all(|l| runs.spread("diff-median", FALSE) > runs.spread(l, FALSE)),
+            holds: criteria.iter().all(|l| runs.spread("diff-median", FOUND) > runs.spread(l, FOUND)),
             measured: format!(
-                "false alarms from run to run: {:.1} ± {:.1}, the others at most ± {:.1}",
+                "found of 24 from run to run: {:.1} ± {:.1}, with {:.1} ± {:.1} false; found by the others at most ± {:.1}",
+                runs.mean("diff-median", FOUND),
+                runs.spread("diff-median", FOUND),
                 runs.mean("diff-median", FALSE),
                 runs.spread("diff-median", FALSE),
-                criteria.iter().map(|l| runs.spread(l, FALSE)).fold(0.0, f64::max),
+                criteria.iter().map(|l| runs.spread(l, FOUND)).fold(0.0, f64::max),
             ),
         },
     ];
