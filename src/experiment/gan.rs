@@ -2,7 +2,7 @@
 
 use super::record::{Record, Signal, Wild};
 use super::reproduction::{Cell, Figures, Finding, Runs, Table};
-use super::trial::{Trial, setup};
+use super::trial::{Keys, Trial, setup};
 use super::{Experiment, Published, Random};
 use crate::error::Result;
 use crate::session::Preset;
@@ -53,7 +53,7 @@ fn record(seed: u64) -> Record {
 }
 
 /// What stands in the table: its label, its preset, and the keys that differ from it.
-const METHODS: [(&str, Preset, &[(&str, &str)]); 5] = [
+const METHODS: [(&str, Preset, Keys); 5] = [
     (OFF, Preset::Paper, &[("c", "1000")]),
     (COAST, Preset::Paper, &[("patch", "1000")]),
     (SPLINE, Preset::Paper, &[]),
@@ -106,7 +106,7 @@ const REPAIR: usize = 4;
 const AFTER: usize = 5;
 
 fn conclude(runs: Runs<'_>) -> (Vec<Table>, Vec<Finding>) {
-    let row = |&(label, ..): &(&'static str, Preset, &[(&str, &str)])| {
+    let row = |&(label, ..): &(&'static str, Preset, Keys)| {
         vec![
             Cell::text(label),
             Cell::number(runs.mean(label, PATCHED), 2),

@@ -4,7 +4,7 @@
 
 use super::record::{Record, Signal, Wild};
 use super::reproduction::{Cell, Figures, Finding, Runs, Table};
-use super::trial::{Tally, Trial, setup};
+use super::trial::{Keys, Tally, Trial, setup};
 use super::{Experiment, Published, Random};
 use crate::error::Result;
 use crate::session::Preset;
@@ -74,7 +74,7 @@ fn record(seed: u64) -> Record {
 }
 
 /// Method, its label in the table, and the keys that differ from its paper settings.
-const METHODS: [(&str, &str, &[(&str, &str)]); 6] = [
+const METHODS: [(&str, &str, Keys); 6] = [
     ("wright", "wright", &[]),
     ("romanovsky", "romanovsky", &[("trend_order", "0"), ("alpha", "0.01")]),
     ("grubbs", "grubbs", &[("trend_order", "0"), ("alpha", "0.01")]),

@@ -4,7 +4,7 @@
 use super::hou_offline::{DEVIATION, FALSE, FOUND, SAMPLES, VARYING, figures_of, outliers, rates};
 use super::record::{Record, Signal};
 use super::reproduction::{Figures, Finding, Runs, Table};
-use super::trial::{Trial, setup};
+use super::trial::{Keys, Trial, setup};
 use super::{Experiment, Published, Random};
 use crate::error::Result;
 use crate::session::Preset;
@@ -48,7 +48,7 @@ fn record(seed: u64) -> Record {
 const SIGMA: &str = "1.4142135623730951";
 
 /// Method, its label in the table, its preset, and the keys that differ from it.
-const METHODS: [(&str, &str, Preset, &[(&str, &str)]); 5] = [
+const METHODS: [(&str, &str, Preset, Keys); 5] = [
     ("five-point", FIVE_POINT, Preset::Default, &[("sigma", SIGMA)]),
     ("alpha-beta-gamma", ALPHA_BETA_GAMMA, Preset::Default, &[("sigma", SIGMA), ("alpha", "0.4")]),
     ("adaptive", ADAPTIVE, Preset::Default, &[("sigma", SIGMA)]),
@@ -63,7 +63,7 @@ const MATCHED: &str = "matched";
 
 fn trial(record: &Record) -> Result<Figures> {
     let trial = Trial::of(record)?;
-    let judge = |&(method, label, preset, keys): &(&str, &'static str, Preset, &[(&str, &str)])| {
+    let judge = |&(method, label, preset, keys): &(&str, &'static str, Preset, Keys)| {
         let tally = trial.tally(&trial.judge(&setup(method, preset, keys)?)?);
         Ok((label, figures_of(&tally)))
     };

@@ -43,6 +43,9 @@ impl Tally {
     }
 }
 
+/// Keys of a method with their values.
+pub type Keys = &'static [(&'static str, &'static str)];
+
 /// The settings of `method`: a preset and a few keys.
 ///
 /// # Errors

@@ -71,7 +71,7 @@ pub fn widen(track: &Track, changes: &[CellChange], columns: &[NewColumn<'_>], o
 fn head(track: &Track, text: &Text<'_>, layout: Layout, columns: &[NewColumn<'_>], pen: &mut Pen<'_>) -> Result<usize> {
     let names: Vec<String> = columns.iter().map(|c| quoted(&c.name, track, layout)).collect();
     let nothing: Vec<String> = columns.iter().map(|_| filled(String::new(), layout)).collect();
-    let (header, units) = header_lines(track, text, layout);
+    let [header, units] = header_lines(track, text, layout);
     let mut written = 0;
     for (line, cells) in [(header, names), (units, nothing)] {
         let Some((start, length)) = line else { continue };
@@ -88,10 +88,13 @@ fn head(track: &Track, text: &Text<'_>, layout: Layout, columns: &[NewColumn<'_>
     Ok(written)
 }
 
-/// Start and length of the header and of the units row in the body, where there are such.
-fn header_lines(track: &Track, text: &Text<'_>, layout: Layout) -> (Option<(usize, usize)>, Option<(usize, usize)>) {
+/// Start and length of a line in the body.
+type Place = (usize, usize);
+
+/// Where the header and the units row are, if there are such.
+fn header_lines(track: &Track, text: &Text<'_>, layout: Layout) -> [Option<Place>; 2] {
     if !track.dialect.header {
-        return (None, None);
+        return [None, None];
     }
     let mut spans = Vec::new();
     let (mut before, mut comments) = (Vec::new(), Vec::new());
@@ -107,7 +110,7 @@ fn header_lines(track: &Track, text: &Text<'_>, layout: Layout) -> (Option<(usiz
         }
     }
     // The rules of the loader: of several lines the header fills the most cells, the earliest of equals.
-    let mut header: Option<(usize, (usize, usize))> = None;
+    let mut header: Option<(usize, Place)> = None;
     for &(filled, place) in &before {
         if header.is_none_or(|(most, _)| filled > most) {
             header = Some((filled, place));
@@ -115,7 +118,7 @@ fn header_lines(track: &Track, text: &Text<'_>, layout: Layout) -> (Option<(usiz
     }
     let commented = comments.iter().rev().find(|(cells, _)| *cells == track.columns.len());
     let units = if track.dialect.units_row { before.last().map(|b| b.1) } else { None };
-    (header.or(commented.copied()).map(|h| h.1), units)
+    [header.or(commented.copied()).map(|h| h.1), units]
 }
 
 /// A cell that is a cell: between blanks an empty one would be none.

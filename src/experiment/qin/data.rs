@@ -22,7 +22,7 @@ const SIZE: (f64, f64) = (5.0, 30.0);
 const EARTH: f64 = 6371.0;
 const GRAVITY: f64 = 398_600.441_8;
 /// Upward and horizontal speed at the start, km/s, at this height: burn-out of the last stage.
-const UP: f64 = 5.9;
+const UP: f64 = 6.47;
 const ALONG: f64 = 0.25;
 const START_HEIGHT: f64 = 100.0;
 /// Place of the radar, km on the ground: along the track and beside it.
@@ -125,7 +125,9 @@ mod tests {
         let apogee = (-GRAVITY - root) / (2.0 * energy) - EARTH;
         assert!((top - apogee).abs() < 0.01, "{top} {apogee}");
         let last = arc.last().unwrap().height;
-        assert!((0.0..400.0).contains(&last), "{last}");
+        assert!((0.0..400.0).contains(&last) && arc.iter().all(|p| p.height > 0.0), "{last}");
+        let (low, high) = arc.iter().fold((f64::MAX, 0.0_f64), |(l, h), p| (l.min(p.deviation), h.max(p.deviation)));
+        assert!(low > 1.3 && high < 1.8, "noise of {low} to {high} km");
     }
 
     #[test]
