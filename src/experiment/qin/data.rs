@@ -6,9 +6,9 @@ use crate::experiment::Random;
 /// What the stand-in is.
 pub(super) const STAND_IN: &str = "The document flies a ballistic missile in a commercial simulator and says neither \
      on which path nor how large the outliers are. Here: free flight of a lofted shot about a spherical Earth, 2384 s \
-     at 1 Hz, seen by a radar about 1000 km away, and the height that follows from range (100 m) and elevation (0.1 \
-     deg) to first order, with noise of 1.4 to 1.8 km. 10 % outliers: half alone, half in patches of 2 to 8 of about \
-     the same error, 5 to 30 km either way; the document's errors are smaller as a whole. Paper settings as the \
+     at 1 Hz, seen by a radar a few hundred km beside it, and the height that follows from range (100 m) and elevation (0.1 \
+     deg) to first order, with noise of 0.3 to 0.6 km. 10 % outliers: half alone, half in patches of 2 to 8 of about \
+     the same error, 2 to 10 km either way. Paper settings as the \
      document prescribes them, and the defaults of this program.";
 
 const SAMPLES: usize = 2384;
@@ -16,7 +16,7 @@ const SAMPLES: usize = 2384;
 const OUTLIERS: usize = 238;
 const PATCH: (usize, usize) = (2, 8);
 /// Sizes of the errors, km.
-const SIZE: (f64, f64) = (5.0, 30.0);
+const SIZE: (f64, f64) = (2.0, 10.0);
 
 /// km and km^3/s^2.
 const EARTH: f64 = 6371.0;
@@ -26,7 +26,7 @@ const UP: f64 = 6.47;
 const ALONG: f64 = 0.25;
 const START_HEIGHT: f64 = 100.0;
 /// Place of the radar, km on the ground: along the track and beside it.
-const RADAR: (f64, f64) = (600.0, 800.0);
+const RADAR: (f64, f64) = (200.0, 200.0);
 /// Noise of range in km and of elevation in radians.
 const RANGE_NOISE: f64 = 0.1;
 const ANGLE_NOISE: f64 = 0.1 * std::f64::consts::PI / 180.0;
@@ -127,7 +127,7 @@ mod tests {
         let last = arc.last().unwrap().height;
         assert!((0.0..400.0).contains(&last) && arc.iter().all(|p| p.height > 0.0), "{last}");
         let (low, high) = arc.iter().fold((f64::MAX, 0.0_f64), |(l, h), p| (l.min(p.deviation), h.max(p.deviation)));
-        assert!(low > 1.3 && high < 1.8, "noise of {low} to {high} km");
+        assert!(low > 0.3 && high < 0.6, "noise of {low} to {high} km");
     }
 
     #[test]
