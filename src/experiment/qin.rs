@@ -8,6 +8,7 @@ use crate::error::Result;
 use crate::session::Preset;
 
 mod data;
+mod findings;
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment = Experiment {
@@ -138,96 +139,5 @@ fn conclude(runs: Runs<'_>) -> (Vec<Table>, Vec<Finding>) {
         ],
         rows,
     };
-    (vec![table], findings(runs))
-}
-
-fn findings(runs: Runs<'_>) -> Vec<Finding> {
-    let error = |method: usize, at: usize| runs.mean(LINES[method].default[at], ERROR);
-    let at = |window: &str| WINDOWS.iter().position(|w| *w == window).unwrap_or(0);
-    let (at_20, at_50, at_100, at_200) = (at("20"), at("50"), at("100"), at("200"));
-    let by_window = |method: usize| {
-        let parts: Vec<String> =
-            WINDOWS.iter().enumerate().map(|(i, w)| format!("{w}: {:.3}", error(method, i))).collect();
-        parts.join(", ")
-    };
-    let by_method = |at: usize| {
-        let parts: Vec<String> =
-            LINES.iter().enumerate().map(|(m, l)| format!("{} {:.3}", l.id, error(m, at))).collect();
-        parts.join(", ")
-    };
-    let best = |method: usize, at: usize| (0..LINES.len()).all(|m| error(method, at) <= error(m, at));
-    let worst = |method: usize, at: usize| (0..LINES.len()).all(|m| error(method, at) >= error(m, at));
-    let found_by_paper: f64 = WINDOWS[..3]
-        .iter()
-        .enumerate()
-        .flat_map(|(i, _)| LINES.iter().map(move |l| (l, i)))
-        .map(|(l, i)| runs.mean(l.paper[i], FOUND))
-        .sum();
-    vec![
-        Finding {
-            id: "median-best-at-50",
-            statement: "At a window of 50 the sliding median has the smallest final error",
-            holds: best(MEDIAN, at_50),
-            measured: format!("default settings, km: {}", by_method(at_50)),
-        },
-        Finding {
-            id: "median-smallest-at-50",
-            statement: "The error of the sliding median is smallest at a window of 50",
-            holds: (0..WINDOWS.len()).all(|i| error(MEDIAN, at_50) <= error(MEDIAN, i)),
-            measured: format!("default settings, km by window: {}", by_window(MEDIAN)),
-        },
-        Finding {
-            id: "template-worst-at-50",
-            statement: "At a window of 50 template convolution has the largest error",
-            holds: worst(TEMPLATE, at_50),
-            measured: format!("default settings, km: {}", by_method(at_50)),
-        },
-        Finding {
-            id: "template-grows-from-50",
-            statement: "The error of template convolution grows with the window and is the largest (from 50 to 100)",
-            holds: error(TEMPLATE, at_50) < error(TEMPLATE, at_100) && worst(TEMPLATE, at_100),
-            measured: format!("default settings, km by window: {}", by_window(TEMPLATE)),
-        },
-        Finding {
-            id: "template-grows-from-10",
-            statement: "The error of template convolution grows with the window (from 10 on)",
-            holds: (at_20..=at_100).all(|i| error(TEMPLATE, i - 1) < error(TEMPLATE, i)),
-            measured: format!(
-                "default settings: {:.3} km at 10, {:.3} at 20, {:.3} at 30: at first a longer line stands outliers \
-                 better, and only then does it lag",
-                error(TEMPLATE, at_20 - 1),
-                error(TEMPLATE, at_20),
-                error(TEMPLATE, at_20 + 1)
-            ),
-        },
-        Finding {
-            id: "median-best-at-20-and-30",
-            statement: "At windows of 20 and 30 the sliding median has the smallest error and the template the largest",
-            holds: [at_20, at_20 + 1].iter().all(|&i| best(MEDIAN, i) && worst(TEMPLATE, i)),
-            measured: format!("default settings, km: at 20 {}; at 30 {}", by_method(at_20), by_method(at_20 + 1)),
-        },
-        Finding {
-            id: "mean-breaks-at-200",
-            statement: "At a window of 200 the sliding mean has the largest error",
-            holds: worst(MEAN, at_200),
-            measured: format!("default settings, km: {}", by_method(at_200)),
-        },
-        Finding {
-            id: "eq-1-as-printed",
-            statement: "With 3 sigma by eq. (1) the methods remove outliers at windows of 7, 8 and 10",
-            holds: found_by_paper >= 1.0,
-            measured: format!(
-                "paper settings: {found_by_paper:.0} found by all four together; a residual test whose scale includes \
-                 the tested sample reaches at most 2.27, 2.47 and 2.85 scales in windows of 7, 8 and 10"
-            ),
-        },
-        Finding {
-            id: "poly-second",
-            statement: "Over the windows up to 100 the polynomial comes second after the sliding median",
-            holds: [at_20, at_20 + 1, at_50, at_100].iter().all(|&i| {
-                error(MEDIAN, i) <= error(POLY, i) && error(POLY, i) <= error(MEAN, i).min(error(TEMPLATE, i))
-            }),
-            measured: format!("default settings, km by window: {}", by_window(POLY)),
-        },
-    ]
+    (vec![table], findings::findings(runs))
 }
