@@ -272,6 +272,16 @@ mod tests {
     }
 
     #[test]
+    fn a_wild_sample_that_was_there_keeps_its_neighbours() {
+        let (t, y) = (clock(7), vec![0.0; 7]);
+        for seed in 0..50 {
+            let two = Plan { seed, isolated: Amount::Count(2), patches: Patches::default(), ..plan() };
+            let wild = inject(&Series::new(&t, &y), &[3], &two).unwrap().wild;
+            assert!(wild[0] < 2 && wild[1] > 4, "{wild:?}");
+        }
+    }
+
+    #[test]
     fn a_record_without_noise_or_room_is_refused() {
         let (t, y) = (clock(40), vec![7.0; 40]);
         let series = Series::new(&t, &y);
