@@ -92,7 +92,7 @@ impl Summary {
                 segments: detection.segments.len(),
                 restarts: restarts.collect(),
                 warnings,
-                score: track.truth.as_ref().map(|truth| Scores::of(outcome, &series, truth)),
+                score: track.truth_for(&plan.channel).map(|truth| Scores::of(outcome, &series, truth)),
                 final_error: None,
             }
         });

@@ -35,7 +35,8 @@ pub fn widen(track: &Track, changes: &[CellChange], columns: &[NewColumn<'_>], o
     pen.raw(text.mark())?;
     let mut written = head(track, &text, layout, columns, &mut pen)?;
     let mut left = changes;
-    walk(track, &text, |row, record, spans| {
+    walk(track, &text, |row, record, splitter| {
+        let spans = splitter.cells(record);
         if spans.len() > track.columns.len() && !record.bytes[spans[track.columns.len()].start as usize..].is_empty() {
             return Err(Error::Input {
                 path: path_of(&track.source),

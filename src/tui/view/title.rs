@@ -54,7 +54,7 @@ fn right_side(model: &Model) -> Line<'static> {
         None => spans.push(Span::styled("computing … ", theme.warning)),
         Some(drawn) => {
             let counts = drawn.outcome.counts;
-            if let Some(truth) = model.track.truth.as_ref().filter(|_| model.size.0 >= 80) {
+            if let Some(truth) = model.track.truth_for(&model.plan().channel).filter(|_| model.size.0 >= 80) {
                 let score = Score::of(&drawn.outcome, &model.series(), truth);
                 let text = format!("missed {} false {}  ", score.missed, score.false_alarms);
                 spans.push(Span::styled(text, theme.dim));
