@@ -10,6 +10,10 @@ use crate::repair;
 use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
 use crate::track::{Delimiter, LoadOptions};
 
+mod tools;
+
+pub use tools::{CompareArgs, FormatArg, JudgeArgs, StreamArgs, SweepArgs};
+
 /// Find, review and repair wild points of tracking records.
 ///
 /// Without a command: opens the workbench on FILE, on a SESSION saved before, or on the built-in demonstration
@@ -84,10 +88,15 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Detect and repair wild points of a file.
+    /// Detect and repair wild points of one file or many.
+    ///
+    /// With several files the outputs are folders (`-o DIR/`, `--flags DIR/`, ...): the cleaned file keeps its name,
+    /// the others are NAME.flags.csv, NAME.diagnostics.csv and NAME.toml. A file that fails does not stop the
+    /// others; the exit status is 2 then.
     Clean {
-        /// The record.
-        file: PathBuf,
+        /// The records.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
         /// How to load and judge it.
         #[command(flatten)]
         shared: Shared,
@@ -99,9 +108,13 @@ pub enum Command {
         save_session: Option<PathBuf>,
     },
     /// Run saved sessions again.
+    ///
+    /// With several sessions the outputs are folders (`-o DIR/`, `--flags DIR/`, ...), in which files are named after
+    /// the sessions. A session that fails does not stop the others; the exit status is 2 then, and 1 when only
+    /// comparisons failed.
     Replay {
-        /// Session files; several only with --check or without outputs.
-        #[arg(required = true)]
+        /// Session files.
+        #[arg(required = true, value_name = "SESSION")]
         sessions: Vec<PathBuf>,
         /// Compare with the result that each session recorded; write nothing. Exit status 1 when one differs.
         #[arg(long, conflicts_with_all = ["output", "flags", "diagnostics"])]
@@ -116,6 +129,12 @@ pub enum Command {
         #[arg(long, value_name = "N")]
         threads: Option<usize>,
     },
+    /// Count outliers along a parameter, and suggest a threshold.
+    Sweep(SweepArgs),
+    /// Every method on one channel, side by side.
+    Compare(CompareArgs),
+    /// Judge samples from standard input as they arrive.
+    Stream(StreamArgs),
     /// List the methods, or explain one with its parameters.
     Methods {
         /// Id of a method.

@@ -1,18 +1,19 @@
 //! `clean`: detect and repair; and the writing of outputs that `replay` shares.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use super::set::{self, Target};
 use super::{Ending, set_threads, tell};
 use crate::cli::{OutputArgs, Shared};
 use crate::error::{Error, Result};
 use crate::report::{Summary, diagnostics, flags};
-use crate::session::{Analysed, Session, document, write_cleaned};
+use crate::session::{Analysed, Session, Setup, document, write_cleaned};
 use crate::stop::Stop;
 use crate::track::{Outputs, Source, Track, load};
 
 pub(super) fn run(
-    file: &Path,
+    files: &[PathBuf],
     shared: &Shared,
     outputs: &OutputArgs,
     save_session: Option<&Path>,
@@ -20,9 +21,21 @@ pub(super) fn run(
 ) -> Result<Ending> {
     set_threads(shared.threads)?;
     let setup = shared.setup()?;
+    let targets = set::targets(files, outputs, save_session, set::file_name)?;
+    if let ([file], [target]) = (files, targets.as_slice()) {
+        return tell(outputs, &one(file, shared, &setup, target)?, out);
+    }
+    let jobs: Vec<(&PathBuf, Target)> = files.iter().zip(targets).collect();
+    let quiet = outputs.quiet || outputs.json;
+    let results = set::for_all(&jobs, quiet, |(file, target)| one(file, shared, &setup, target));
+    set::tell(files, &results, outputs, out)
+}
+
+fn one(file: &Path, shared: &Shared, setup: &Setup, target: &Target) -> Result<Summary> {
+    let outputs = &target.outputs;
     let options = shared.load.options(shared.rate.as_deref());
     let track = load(&Source::File(file.to_path_buf()), &options)?;
-    let mut session = Session::new(&track, shared.load.options(None), &setup);
+    let mut session = Session::new(&track, shared.load.options(None), setup);
     // A rate channel that was loaded beside the named ones is not judged.
     if !shared.load.channel.is_empty() {
         session.plans.retain(|p| shared.load.channel.contains(&p.channel) || shared.rate.as_ref() != Some(&p.channel));
@@ -32,12 +45,12 @@ pub(super) fn run(
     let inputs: Vec<&Path> = track.source.path().into_iter().collect();
     let mut files = Outputs::new(outputs.force, &inputs);
     stage(&mut files, outputs, &track, &session, &analysed, &mut summary)?;
-    if let Some(path) = save_session {
+    if let Some(path) = &target.session {
         let text = document(&mut session, &track, &analysed, path)?;
         files.stage(path, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", path)))?;
     }
     files.commit()?;
-    tell(outputs, &summary, out)
+    Ok(summary)
 }
 
 /// Prepares the outputs that were asked for.

@@ -44,7 +44,9 @@ fn grids_hit_their_ends_and_refuse_what_makes_none() {
     assert_eq!(grid(1.0, 16.0, 5, true).unwrap(), [1.0, 2.0, 4.0, 8.0, 16.0]);
     assert_eq!(grid(-1.0, 1.0, 5, false).unwrap(), [-1.0, -0.5, 0.0, 0.5, 1.0]);
     assert_eq!(grid(FROM, TO, STEPS, true).unwrap().last(), Some(&256.0));
-    for (from, to, steps, log) in [(2.0, 2.0, 5, true), (0.0, 2.0, 5, true), (1.0, 2.0, 1, true), (1.0, f64::NAN, 5, false)] {
+    for (from, to, steps, log) in
+        [(2.0, 2.0, 5, true), (0.0, 2.0, 5, true), (1.0, 2.0, 1, true), (1.0, f64::NAN, 5, false)]
+    {
         assert!(matches!(grid(from, to, steps, log), Err(Error::Usage { .. })), "{from} {to} {steps}");
     }
 }

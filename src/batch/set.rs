@@ -1,0 +1,280 @@
+//! Many inputs at once: they share the cores, one that fails does not stop the others, and each output has a place.
+
+use std::collections::BTreeMap;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use serde::Serialize;
+
+use super::table::{columns, row};
+use super::{Ending, print, print_json};
+use crate::cli::OutputArgs;
+use crate::error::{Error, Result};
+use crate::report::Summary;
+use crate::track::printable;
+
+/// Does `work` for each of `items`, as many at a time as there are threads; results in the order of the items. Where
+/// standard error is a terminal it shows how far it is, unless `quiet`.
+pub(super) fn for_all<T: Sync, R: Send>(items: &[T], quiet: bool, work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let progress = Progress { shown: !quiet && items.len() > 1 && std::io::stderr().is_terminal(), of: items.len() };
+    let one_after_the_other = || {
+        let mut results = Vec::new();
+        // Threads of their own, not tasks of the pool: a task that waits for its parts would take up another file
+        // meanwhile, and as many records as there are files would be in memory.
+        while let Some((at, item)) =
+            Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|at| Some((at, items.get(at)?)))
+        {
+            results.push((at, work(item)));
+            progress.show(done.fetch_add(1, Ordering::Relaxed) + 1);
+        }
+        results
+    };
+    progress.show(0);
+    let workers = rayon::current_num_threads().min(items.len());
+    let mut results: Vec<(usize, R)> = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..workers).map(|_| scope.spawn(one_after_the_other)).collect();
+        let joined = threads.into_iter().map(|t| t.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        joined.flatten().collect()
+    });
+    progress.clear();
+    results.sort_by_key(|r| r.0);
+    results.into_iter().map(|r| r.1).collect()
+}
+
+/// A line on the terminal that says how far the work is.
+struct Progress {
+    shown: bool,
+    of: usize,
+}
+
+impl Progress {
+    fn show(&self, done: usize) {
+        if self.shown {
+            let filled = 30 * done / self.of.max(1);
+            let bar = format!("{}{}", "#".repeat(filled), ".".repeat(30 - filled));
+            let _ = write!(std::io::stderr(), "\r[{bar}] {done} of {}", self.of);
+        }
+    }
+
+    fn clear(&self) {
+        if self.shown {
+            let _ = write!(std::io::stderr(), "\r\x1b[K");
+        }
+    }
+}
+
+/// Where the outputs of one input go.
+#[derive(Debug, Clone)]
+pub(super) struct Target {
+    /// The files to write, and how.
+    pub(super) outputs: OutputArgs,
+    /// The session to write.
+    pub(super) session: Option<PathBuf>,
+}
+
+/// Where the outputs of each input go. `name` gives the name of its cleaned file. With several inputs, and where a
+/// folder is named, the outputs are folders, which are made where they are missing.
+///
+/// # Errors
+/// [`Error::Usage`] when several inputs would go to one file; [`Error::Io`] when a folder cannot be made.
+pub(super) fn targets(
+    inputs: &[PathBuf],
+    outputs: &OutputArgs,
+    session: Option<&Path>,
+    name: impl Fn(&Path) -> String,
+) -> Result<Vec<Target>> {
+    let several = inputs.len() > 1;
+    let named = [outputs.output.as_deref(), outputs.flags.as_deref(), outputs.diagnostics.as_deref(), session];
+    for path in named.into_iter().flatten() {
+        if several && !is_folder(path) {
+            return Err(Error::usage(
+                format!("{}: several inputs cannot be written to one file", path.display()),
+                format!("name a folder: {}/", path.display()),
+            ));
+        }
+    }
+    let mut taken: BTreeMap<PathBuf, &Path> = BTreeMap::new();
+    let mut targets = Vec::with_capacity(inputs.len());
+    for input in inputs {
+        let cleaned = name(input);
+        let stem = stem(&cleaned).to_owned();
+        let mut place = |path: Option<&Path>, file: String| -> Result<Option<PathBuf>> {
+            let Some(path) = path else { return Ok(None) };
+            if !is_folder(path) {
+                return Ok(Some(path.to_path_buf()));
+            }
+            let target = path.join(file);
+            match taken.insert(target.clone(), input) {
+                Some(other) => Err(Error::usage(
+                    format!("{} and {}: both would be {}", other.display(), input.display(), target.display()),
+                    "clean them one by one, or give one of them another name",
+                )),
+                None => Ok(Some(target)),
+            }
+        };
+        let session = place(session, format!("{stem}.toml"))?;
+        let outputs = OutputArgs {
+            flags: place(outputs.flags.as_deref(), format!("{stem}.flags.csv"))?,
+            diagnostics: place(outputs.diagnostics.as_deref(), format!("{stem}.diagnostics.csv"))?,
+            output: place(outputs.output.as_deref(), cleaned)?,
+            ..outputs.clone()
+        };
+        targets.push(Target { outputs, session });
+    }
+    for folder in named.into_iter().flatten().filter(|p| is_folder(p)) {
+        std::fs::create_dir_all(folder).map_err(Error::io("make the folder", folder))?;
+    }
+    Ok(targets)
+}
+
+/// The name of a file, for its cleaned version.
+pub(super) fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(|| "cleaned.csv".into(), |n| n.to_string_lossy().into_owned())
+}
+
+fn is_folder(path: &Path) -> bool {
+    let ends_as_one = path.as_os_str().to_string_lossy().ends_with(std::path::is_separator);
+    ends_as_one || path.is_dir()
+}
+
+/// The name without its ending, and without `.gz` before that.
+fn stem(name: &str) -> &str {
+    let name = name.strip_suffix(".gz").unwrap_or(name);
+    name.rsplit_once('.').map_or(name, |(stem, _)| if stem.is_empty() { name } else { stem })
+}
+
+/// One input of several.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Told<'a> {
+    Done(&'a Summary),
+    Failed { file: String, error: String },
+}
+
+/// The inputs of a command.
+#[derive(Debug, Serialize)]
+struct Set<'a> {
+    files: Vec<Told<'a>>,
+    failed: usize,
+}
+
+/// Tells what came out of several inputs: a table on standard output (or JSON), the errors on standard error.
+pub(super) fn tell(
+    inputs: &[PathBuf],
+    results: &[Result<Summary>],
+    outputs: &OutputArgs,
+    out: &mut dyn Write,
+) -> Result<Ending> {
+    let failed = results.iter().filter(|r| r.is_err()).count();
+    tell_errors(inputs, results);
+    let ending = if failed > 0 { Ending::Failed } else { Ending::Done };
+    if outputs.json {
+        let files = inputs.iter().zip(results).map(|(input, result)| match result {
+            Ok(summary) => Told::Done(summary),
+            Err(e) => Told::Failed { file: input.display().to_string(), error: e.to_string() },
+        });
+        print_json(out, &Set { files: files.collect(), failed })?;
+    } else if !outputs.quiet {
+        print(out, &text(inputs, results))?;
+    }
+    Ok(ending)
+}
+
+/// The errors of several inputs, on standard error.
+pub(super) fn tell_errors<T>(inputs: &[PathBuf], results: &[Result<T>]) {
+    let mut stderr = std::io::stderr();
+    for (input, error) in inputs.iter().zip(results).filter_map(|(i, r)| Some((i, r.as_ref().err()?))) {
+        let (input, error) = (input.display().to_string(), error.to_string());
+        // Most errors name the file themselves.
+        let whose = if error.contains(&input) { String::new() } else { format!("{input}: ") };
+        let _ = writeln!(stderr, "wildpoint: {whose}{error}");
+    }
+}
+
+const HEADER: [&str; 10] =
+    ["file", "rows", "channels", "flagged", "isolated", "patches", "repaired", "removed", "suspects", "unchecked"];
+
+fn text(inputs: &[PathBuf], results: &[Result<Summary>]) -> String {
+    let mut rows = vec![row(HEADER)];
+    let (mut all, mut notes) = ([0_usize; 9], String::new());
+    for (input, result) in inputs.iter().zip(results) {
+        let name = printable(&input.display().to_string());
+        let Ok(summary) = result else {
+            rows.push(vec![name, "failed".into()]);
+            continue;
+        };
+        let of = |f: fn(&crate::session::Counts) -> usize| summary.channels.iter().map(|c| f(&c.counts)).sum();
+        let numbers = [
+            summary.rows,
+            summary.channels.len(),
+            summary.flagged,
+            of(|n| n.isolated),
+            of(|n| n.patches),
+            of(|n| n.repaired),
+            of(|n| n.removed),
+            of(|n| n.suspects),
+            of(|n| n.unchecked),
+        ];
+        all.iter_mut().zip(numbers).for_each(|(sum, n)| *sum += n);
+        for channel in &summary.channels {
+            for warning in &channel.warnings {
+                notes += &format!("note: {name}, {}: {warning}\n", channel.channel);
+            }
+        }
+        rows.push(std::iter::once(name).chain(numbers.map(|n| n.to_string())).collect());
+    }
+    let failed = results.iter().filter(|r| r.is_err()).count();
+    rows.push(std::iter::once("all".to_owned()).chain(all.map(|n| n.to_string())).collect());
+    let mut out = columns(&rows) + &notes;
+    if failed > 0 {
+        out += &format!("{failed} of {} failed\n", inputs.len());
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn args(output: Option<&Path>, flags: Option<&Path>) -> OutputArgs {
+        OutputArgs {
+            output: output.map(Path::to_path_buf),
+            flags: flags.map(Path::to_path_buf),
+            ..OutputArgs::default()
+        }
+    }
+
+    #[test]
+    fn results_come_in_the_order_of_the_items() {
+        let items: Vec<usize> = (0..100).collect();
+        assert_eq!(for_all(&items, true, |i| i * i), items.iter().map(|i| i * i).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn each_input_has_its_files_in_the_folders() {
+        let dir = tempfile::tempdir().unwrap();
+        let (out, flags) = (dir.path().join("out/"), dir.path().to_path_buf());
+        let inputs = [PathBuf::from("x/a.csv"), PathBuf::from("y/b.csv.gz")];
+        let targets = targets(&inputs, &args(Some(&out), Some(&flags)), Some(&flags), file_name).unwrap();
+        assert_eq!(targets[0].outputs.output, Some(out.join("a.csv")));
+        assert_eq!(targets[1].outputs.output, Some(out.join("b.csv.gz")), "packed as it was");
+        assert_eq!(targets[1].outputs.flags, Some(flags.join("b.flags.csv")));
+        assert_eq!(targets[0].session, Some(flags.join("a.toml")));
+        assert!(out.is_dir());
+    }
+
+    #[test]
+    fn two_inputs_never_share_a_file() {
+        let dir = tempfile::tempdir().unwrap();
+        let one = dir.path().join("one.csv");
+        let inputs = [PathBuf::from("x/a.csv"), PathBuf::from("y/a.csv")];
+        let to = |path: &Path| targets(&inputs, &args(Some(path), None), None, file_name).unwrap_err().to_string();
+        assert!(to(&one).contains("one.csv/"), "a file is refused, and the way out is a folder");
+        assert!(!one.exists());
+        assert!(to(dir.path()).contains("y/a.csv"), "the same name twice is refused");
+        let single = targets(&inputs[..1], &args(Some(&one), None), None, file_name).unwrap();
+        assert_eq!(single[0].outputs.output, Some(one));
+    }
+}
