@@ -13,12 +13,14 @@ use crate::track::{Source, Track, load};
 
 mod clean;
 mod compare;
+mod comparison;
 mod consensus;
 mod methods;
 mod replay;
 mod set;
 mod sweep;
 mod table;
+mod targets;
 
 pub use methods::markdown as methods_table;
 

@@ -75,7 +75,6 @@ pub enum Glyphs {
 
 /// The commands that need no screen.
 #[derive(Debug, Subcommand)]
-#[expect(clippy::large_enum_variant, reason = "one is made per run of the program")]
 pub enum Command {
     /// Print what the loader understands of a file: columns, times, gaps, noise, bad rows.
     Inspect {

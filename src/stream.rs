@@ -10,11 +10,12 @@ use std::io::{Read, Write};
 use crate::cli::{FormatArg, StreamArgs};
 use crate::error::{Error, Result};
 use crate::method::Verdict;
-use crate::track::{LoadOptions, Series, printable};
+use crate::track::{LoadOptions, Series};
 
 mod judge;
 mod layout;
 mod lines;
+mod notes;
 mod output;
 mod predict;
 mod setup;
@@ -23,6 +24,7 @@ mod template;
 pub use judge::{Heard, Judge, Said};
 use layout::{Content, Layout, Sample};
 use lines::{Line, Lines};
+use notes::{Counts, Notes};
 use output::Label;
 pub use setup::Plan;
 
@@ -44,7 +46,7 @@ const MOST_TOLD: u64 = 5;
 /// [`Error::Io`], also when the reader of `out` has gone away.
 pub fn run(args: &StreamArgs, input: impl Read, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let planned = setup::plan(args)?;
-    let mut err = Notes { err, quiet: args.quiet };
+    let mut err = Notes::new(err, args.quiet);
     planned.notes.iter().for_each(|note| err.tell(note));
     let mut stream = Stream {
         plan: planned.plan,
@@ -71,48 +73,7 @@ pub fn run(args: &StreamArgs, input: impl Read, out: &mut dyn Write, err: &mut d
     stream.finish()
 }
 
-/// What is told on standard error. Nobody may be listening: what goes wrong there ends nothing.
-struct Notes<'a> {
-    err: &'a mut dyn Write,
-    quiet: bool,
-}
-
-impl Notes<'_> {
-    fn tell(&mut self, text: &str) {
-        if !self.quiet {
-            let _ = writeln!(self.err, "wildpoint: {}", printable(text));
-        }
-    }
-}
-
-/// How many rows are what, by the last word about each.
-#[derive(Debug, Default)]
-struct Counts {
-    outliers: u64,
-    suspects: u64,
-    unchecked: u64,
-    missing: u64,
-    untimely: u64,
-    unreadable: u64,
-    restarts: u64,
-}
-
-impl Counts {
-    /// One more row has this verdict; one fewer has `before`, when it was said of the same row.
-    fn say(&mut self, verdict: Verdict, before: Option<Verdict>) {
-        let mut of = |verdict: Verdict, change: fn(u64) -> u64| match verdict {
-            Verdict::Outlier => self.outliers = change(self.outliers),
-            Verdict::Suspect => self.suspects = change(self.suspects),
-            Verdict::Unchecked => self.unchecked = change(self.unchecked),
-            Verdict::Normal | Verdict::Missing => {}
-        };
-        of(verdict, |n| n + 1);
-        if let Some(before) = before {
-            of(before, |n| n - 1);
-        }
-    }
-}
-
+/// A stream on its way.
 struct Stream<'a> {
     plan: Plan,
     options: LoadOptions,
@@ -252,21 +213,7 @@ impl Stream<'_> {
             self.learn(true)?;
         }
         self.out.flush().map_err(output::write_error)?;
-        let c = &self.counts;
-        let mut text = format!("{} rows: {} outliers", self.rows, c.outliers);
-        for (count, what) in [
-            (c.suspects, "suspects"),
-            (c.unchecked, "unchecked"),
-            (c.missing, "without a value"),
-            (c.untimely, "with a time that is not after the one before"),
-            (c.unreadable, "unreadable"),
-            (c.restarts, "restarts"),
-        ] {
-            if count > 0 {
-                text += &format!(", {count} {what}");
-            }
-        }
-        self.err.tell(&text);
+        self.err.tell(&self.counts.text(self.rows));
         Ok(())
     }
 }

@@ -3,7 +3,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::set::{self, Target};
+use super::set;
+use super::targets::{Target, file_name, targets};
 use super::{Ending, set_threads, tell};
 use crate::cli::{OutputArgs, Shared};
 use crate::error::{Error, Result};
@@ -21,7 +22,7 @@ pub(super) fn run(
 ) -> Result<Ending> {
     set_threads(shared.threads)?;
     let setup = shared.setup()?;
-    let targets = set::targets(files, outputs, save_session, set::file_name)?;
+    let targets = targets(files, outputs, save_session, file_name)?;
     if let ([file], [target]) = (files, targets.as_slice()) {
         return tell(outputs, &one(file, shared, &setup, target)?, out);
     }

@@ -1,29 +1,21 @@
 //! `compare`: every applicable method on one channel, side by side; and what so many of them agree on.
 
 use std::io::Write;
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::consensus::{Consensus, VOTES};
-use super::{Ending, clean, one_channel, print, print_json, set, set_threads};
+use super::comparison::{Row, Skipped, Told};
+use super::consensus::{Ballot, written};
+use super::{Ending, one_channel, print, print_json, set, set_threads};
 use crate::cli::CompareArgs;
 use crate::error::{Error, Result};
-use crate::method::noise::Scales;
 use crate::method::shared::MAX_GAP;
-use crate::method::{Judged, METHODS, Method, Verdict, segments};
-use crate::param::Value;
-use crate::repair;
-use crate::report::Summary;
+use crate::method::{METHODS, Method, Verdict};
 use crate::review::Decisions;
 use crate::score::Score;
-use crate::session::{Analysed, Detection, Outcome, Preset, Session, Setup, detect, method_of_id, settle};
+use crate::session::{Preset, Setup, detect, method_of_id, settle};
 use crate::stop::Stop;
-use crate::track::{Outputs, Samples, Track};
-
-mod told;
-
-use told::{Agreement, Row, Skipped, Told};
+use crate::track::{Samples, Track};
 
 pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
     set_threads(args.threads)?;
@@ -47,13 +39,13 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
     let (rows, verdicts): (Vec<Row>, Vec<Vec<Verdict>>) = judged.into_iter().unzip();
     let ballot = Ballot::of(&verdicts, samples.series(channel, &track.time).len());
     let consensus = match args.votes {
-        Some(votes) => Some(written_consensus(args, votes, &track, index, &samples, &ballot)?),
+        Some(votes) => Some(written(args, votes, &track, index, &samples, &ballot)?),
         None => None,
     };
     let told = Told {
         file: args.file.display().to_string(),
         channel: channel.name.clone(),
-        samples: ballot.flagged.len(),
+        samples: ballot.samples(),
         methods: rows,
         skipped,
         agreement: ballot.agreement(setups.len()),
@@ -144,118 +136,9 @@ fn judge(track: &Track, index: usize, samples: &Samples, setup: &Setup) -> Resul
     Ok((Row::of(setup.method.about().id, &outcome.counts, Some(ms), score), verdicts))
 }
 
-/// How many methods flag each sample, and how many could judge it.
-struct Ballot {
-    flagged: Vec<u16>,
-    checked: Vec<u16>,
-}
-
-impl Ballot {
-    fn of(verdicts: &[Vec<Verdict>], samples: usize) -> Self {
-        let count = |counts: fn(Verdict) -> bool| {
-            let mut sums = vec![0_u16; samples];
-            for verdict in verdicts {
-                sums.iter_mut().zip(verdict).for_each(|(sum, v)| *sum += u16::from(counts(*v)));
-            }
-            sums
-        };
-        Self { flagged: count(|v| v == Verdict::Outlier), checked: count(|v| v != Verdict::Unchecked) }
-    }
-
-    fn agreement(&self, methods: usize) -> Vec<Agreement> {
-        let exactly = |k: usize| self.flagged.iter().filter(|f| usize::from(**f) == k).count();
-        let mut at_least = 0;
-        let mut all: Vec<Agreement> = Vec::new();
-        for methods in (1..=methods).rev() {
-            let exactly = exactly(methods);
-            at_least += exactly;
-            all.push(Agreement { methods, exactly, at_least });
-        }
-        all.reverse();
-        all
-    }
-
-    /// The verdicts when `votes` methods must agree: unchecked where so few could judge that they cannot.
-    fn verdicts(&self, votes: usize) -> Vec<Verdict> {
-        let verdict = |(&flagged, &checked): (&u16, &u16)| {
-            if usize::from(flagged) >= votes {
-                Verdict::Outlier
-            } else if usize::from(checked) < votes {
-                Verdict::Unchecked
-            } else {
-                Verdict::Normal
-            }
-        };
-        self.flagged.iter().zip(&self.checked).map(verdict).collect()
-    }
-}
-
-/// The consensus, repaired and written where it was asked for.
-fn written_consensus(
-    args: &CompareArgs,
-    votes: usize,
-    track: &Track,
-    index: usize,
-    samples: &Samples,
-    ballot: &Ballot,
-) -> Result<Row> {
-    let channel = &track.channels[index];
-    let mut setup = Setup::new(&Consensus, Preset::Default);
-    let count = i64::try_from(votes).map_err(|_| Error::usage("too many votes", "give fewer"))?;
-    setup.settings.set("consensus", VOTES.key, Value::Whole(count))?;
-    setup.repair.set_text("repair", repair::METHOD.key, args.repair.as_deref().unwrap_or("linear"))?;
-    for (key, value) in [(repair::MAX_FILL.key, &args.max_fill), (MAX_GAP.key, &args.max_gap)] {
-        if let Some(value) = value {
-            setup.set_text(key, value)?;
-        }
-    }
-    let outcome = consensus(votes, &setup, track, index, samples, ballot)?;
-    let series = samples.series(channel, &track.time);
-    let score = track.truth.as_ref().map(|truth| Score::of(&outcome, &series, truth));
-    let row = Row::of("consensus", &outcome.counts, None, score);
-    let mut session = Session::new(track, args.load.options(None), &setup);
-    session.plans.retain(|p| p.channel == channel.name);
-    let analysed = Analysed { channels: vec![(index, samples.clone(), outcome)] };
-    let mut summary = Summary::of(track, &session, &analysed);
-    let inputs: Vec<&Path> = track.source.path().into_iter().collect();
-    let mut files = Outputs::new(args.outputs.force, &inputs);
-    clean::stage(&mut files, &args.outputs, track, &session, &analysed, &mut summary)?;
-    files.commit()?;
-    Ok(row)
-}
-
-fn consensus(
-    votes: usize,
-    setup: &Setup,
-    track: &Track,
-    index: usize,
-    samples: &Samples,
-    ballot: &Ballot,
-) -> Result<Outcome> {
-    let channel = &track.channels[index];
-    let series = samples.series(channel, &track.time);
-    let segments = segments(&series, &setup.settings);
-    let judged = Judged { verdict: ballot.verdicts(votes), ..Judged::unchecked(series.len()) };
-    let scales = vec![Scales::default(); segments.len()];
-    let detection = Detection { setup: setup.clone(), segments, scales, judged };
-    Ok(settle(track, channel, samples, Arc::new(detection), &Decisions::default(), &Stop::never())?)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_vote_counts_who_flags_and_who_could_judge() {
-        use Verdict::{Normal as N, Outlier as O, Suspect as S, Unchecked as U};
-        let ballot = Ballot::of(&[vec![O, O, N, U, S], vec![O, N, N, U, N], vec![O, O, U, O, U]], 5);
-        assert_eq!(ballot.verdicts(1), [O, O, N, O, N]);
-        assert_eq!(ballot.verdicts(2), [O, O, N, U, N], "one of three judged the fourth sample");
-        assert_eq!(ballot.verdicts(3), [O, N, U, U, U]);
-        let agreement = ballot.agreement(3);
-        let of = |f: fn(&Agreement) -> usize| agreement.iter().map(f).collect::<Vec<_>>();
-        assert_eq!((of(|a| a.exactly), of(|a| a.at_least)), (vec![1, 1, 1], vec![3, 2, 1]));
-    }
 
     #[test]
     fn a_setting_goes_to_one_method_or_to_all_that_have_it() {

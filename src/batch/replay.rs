@@ -3,7 +3,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::set::{self, Target};
+use super::set;
+use super::targets::{Target, file_name, targets};
 use super::{Ending, clean, print, tell};
 use crate::cli::OutputArgs;
 use crate::error::{Error, Result};
@@ -18,7 +19,7 @@ pub(super) fn run_all(
     outputs: &OutputArgs,
     out: &mut dyn Write,
 ) -> Result<Ending> {
-    let targets = set::targets(sessions, outputs, None, cleaned_name)?;
+    let targets = targets(sessions, outputs, None, cleaned_name)?;
     let talks = !outputs.quiet && !outputs.json;
     if let ([session], [target]) = (sessions, targets.as_slice()) {
         let (summary, notes) = run(session, accept_changed, target)?;
@@ -43,7 +44,7 @@ pub(super) fn run_all(
 fn cleaned_name(session: &Path) -> String {
     let stem = session.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     // A session that cannot be read is told as an error when it is run.
-    let record = read(session).ok().and_then(|s| s.data.source.path().map(set::file_name));
+    let record = read(session).ok().and_then(|s| s.data.source.path().map(file_name));
     let ending = record.as_deref().and_then(|name| {
         let (rest, packed) = name.strip_suffix(".gz").map_or((name, ""), |rest| (rest, ".gz"));
         rest.rsplit_once('.').map(|(_, ending)| format!(".{ending}{packed}"))

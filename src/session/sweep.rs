@@ -2,16 +2,18 @@
 //! (section 8a of the methods page). True wild points stand far off: between the noise and them lies a range of
 //! thresholds that all flag the same samples.
 
-use std::ops::RangeInclusive;
-
 use rayon::prelude::*;
 
 use super::{Detection, Setup, detect};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::method::Verdict;
-use crate::param::{Kind, Param, Value, find};
+use crate::param::{Kind, Param, Value};
 use crate::stop::Stop;
 use crate::track::{Channel, Samples, Series, Track};
+
+mod range;
+
+pub use range::{grid, multiplier, numeric};
 
 /// Values of a sweep when none are named: so many, from …
 pub const STEPS: usize = 48;
@@ -25,9 +27,6 @@ const STILL: f64 = 0.02;
 
 /// A plateau is at least so long: its last value over its first.
 const LENGTH: f64 = 1.5;
-
-/// More values than this are a slip of the finger.
-const MOST_STEPS: usize = 10_000;
 
 /// What a method flags with one value of the parameter.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -102,91 +101,12 @@ impl Sweep {
     }
 }
 
-/// The multiplier that a sweep goes along when no parameter is named.
-///
-/// # Errors
-/// [`Error::Usage`] when the method has none, or when it does not matter under these settings.
-pub fn multiplier(setup: &Setup) -> Result<&'static Param> {
-    let about = setup.method.about();
-    let found = about.params.iter().find(|p| matches!(p.key, "k" | "c"));
-    let Some(param) = found else {
-        let keys: Vec<&str> = about.params.iter().filter(|p| range(p).is_some()).map(|p| p.key).collect();
-        return Err(Error::usage(
-            format!("{} has no multiplier of a scale to sweep", about.id),
-            format!("name a parameter with --param: {}", keys.join(", ")),
-        ));
-    };
-    if (param.matters)(&setup.settings) {
-        return Ok(param);
-    }
-    Err(Error::usage(
-        format!("{} does not matter to {} under these settings", param.key, about.id),
-        "leave the tolerance automatic, or name another parameter with --param",
-    ))
-}
-
-/// The numbers that a parameter takes; none when it takes none.
-fn range(param: &Param) -> Option<RangeInclusive<f64>> {
-    #[expect(clippy::cast_precision_loss, reason = "bounds of parameters are far below 2^53")]
-    match param.kind {
-        Kind::Whole { min, max, .. } | Kind::WholeOrOff { min, max } => Some(min as f64..=max as f64),
-        Kind::Real { min, max, .. } | Kind::RealOr { min, max, .. } => Some(min..=max),
-        Kind::Choice(_) | Kind::Switch => None,
-    }
-}
-
-/// The numeric parameter `key` of the method, for values from `from` to `to`.
-///
-/// # Errors
-/// [`Error::Usage`] for an unknown key, one that takes no numbers, or values out of its range.
-pub fn numeric(setup: &Setup, key: &str, from: f64, to: f64) -> Result<&'static Param> {
-    let about = setup.method.about();
-    let param = find(about.params, about.id, key)?;
-    let Some(range) = range(param) else {
-        let what = format!("{key} takes {}: no numbers to sweep", param.range());
-        return Err(Error::usage(what, "name a numeric parameter with --param"));
-    };
-    if range.contains(&from) && range.contains(&to) {
-        return Ok(param);
-    }
-    let what = format!("{key} from {from} to {to}: out of its range");
-    Err(Error::usage(what, format!("{key} takes {}: give --from and --to inside", param.range())))
-}
-
-/// `steps` values from `from` to `to`, in equal ratios (`log`) or equal steps.
-///
-/// # Errors
-/// [`Error::Usage`] for bounds or numbers that make no grid.
-pub fn grid(from: f64, to: f64, steps: usize, log: bool) -> Result<Vec<f64>> {
-    if !(from.is_finite() && to.is_finite() && from < to) {
-        return Err(Error::usage(format!("from {from} to {to}: no range"), "--from must be smaller than --to"));
-    }
-    if log && from <= 0.0 {
-        return Err(Error::usage(
-            format!("from {from}: a logarithmic grid starts above 0"),
-            "give a larger --from, or --linear",
-        ));
-    }
-    if !(2..=MOST_STEPS).contains(&steps) {
-        return Err(Error::usage(format!("{steps} steps make no sweep"), format!("give --steps 2 .. {MOST_STEPS}")));
-    }
-    let last = steps - 1;
-    #[expect(clippy::cast_precision_loss, reason = "at most ten thousand")]
-    let at = |i: usize| match i {
-        0 => from,
-        i if i == last => to,
-        i if log => from * (to / from).powf(i as f64 / last as f64),
-        i => from + (to - from) * (i as f64 / last as f64),
-    };
-    Ok((0..steps).map(at).collect())
-}
-
 /// Counts what the method of `setup` flags for each of `values` (ascending) of its parameter `param`. Values of a
 /// whole-number parameter are rounded, and each is taken once. Where the parameter only gates, the scores are
 /// computed once; otherwise the values share all cores. The decisions of the analyst play no part.
 ///
 /// # Errors
-/// [`Error::Stopped`]; [`Error::Usage`] for a value that the parameter does not take; what [`detect`] gives.
+/// [`crate::error::Error::Stopped`]; [`crate::error::Error::Usage`] for a value that the parameter does not take; what [`detect`] gives.
 pub fn sweep(
     track: &Track,
     channel: &Channel,

@@ -1,4 +1,5 @@
 use super::*;
+use crate::error::Error;
 use crate::method;
 use crate::session::Preset;
 use crate::track::{LoadOptions, Source, load};

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use crate::batch::table::{columns, row};
+use super::table::{columns, row};
 use crate::score::Score;
 use crate::session::Counts;
 use crate::track::printable;
