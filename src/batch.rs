@@ -18,6 +18,7 @@ mod consensus;
 mod methods;
 mod replay;
 mod set;
+mod suggest;
 mod sweep;
 mod table;
 mod targets;
@@ -42,8 +43,8 @@ pub enum Ending {
 pub fn run(command: Command, out: &mut dyn Write) -> Result<Ending> {
     match command {
         Command::Inspect { file, load, json } => inspect(&file, &load, json, out),
-        Command::Clean { files, shared, outputs, save_session } => {
-            clean::run(&files, &shared, &outputs, save_session.as_deref(), out)
+        Command::Clean { files, shared, suggest, outputs, save_session } => {
+            clean::run(&files, (&shared, suggest), &outputs, save_session.as_deref(), out)
         }
         Command::Replay { sessions, check, accept_changed_data, outputs, threads } => {
             set_threads(threads)?;

@@ -99,6 +99,10 @@ pub enum Command {
         /// How to load and judge it.
         #[command(flatten)]
         shared: Shared,
+        /// Take the multiplier (k or c) that `wildpoint sweep` suggests for each channel; where it suggests none, the
+        /// one that is set stays. The session says so.
+        #[arg(long)]
+        suggest: bool,
         /// What to write.
         #[command(flatten)]
         outputs: OutputArgs,

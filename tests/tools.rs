@@ -70,6 +70,13 @@ fn a_sweep_finds_the_threshold_between_noise_and_wild_points() {
     assert_eq!(cleaned["flagged"], WILD.len());
     assert_eq!(cleaned["channels"][0]["score"]["missed"], 0);
 
+    let suggested = json(dir.path(), "clean a.csv --channel x --suggest --json --save-session s.toml");
+    assert_eq!(suggested["channels"][0]["settings"]["k"].as_f64(), Some(k));
+    let session = std::fs::read_to_string(dir.path().join("s.toml")).expect("written");
+    assert!(session.contains(&format!("\n# k = {k} was suggested: 7 flagged")), "{session}");
+    assert!(done(dir.path(), "replay --check s.toml").contains("same result"), "the note does no harm");
+    assert!(fails(dir.path(), "clean a.csv --suggest --set k=3", 2).contains("leave out"));
+
     let table = done(dir.path(), "sweep a.csv --channel x --method hampel");
     assert!(table.contains("missed") && table.contains("suggestion: --method hampel --set k="), "{table}");
     let noise = done(dir.path(), "sweep a.csv --channel y --method hampel");

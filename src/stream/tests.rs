@@ -146,12 +146,15 @@ fn few_rows_are_judged_when_the_sender_ends() {
 }
 
 #[test]
-fn midnight_is_no_step_back() {
-    let row = |i: u32| format!("{:02}:59:{:02},5\n", 23, 50 + i);
-    let next = |i: u32| format!("00:00:{:02},5\n", i - 9);
-    let text: String = (0..=9).map(row).collect::<String>() + "00:00:00,5\n" + &(10..16).map(next).collect::<String>();
-    let (_, err) = streamed(FIVE, &("time,x\n".to_owned() + &text));
-    assert!(err.contains("17 rows: 0 outliers\n"), "{err}");
+fn midnight_is_no_step_back_and_a_step_back_is_no_midnight() {
+    let row = |i: u32| format!("23:59:{:02},5\n", 50 + i);
+    let next = |i: u32| format!("00:00:{i:02},5\n");
+    let rows: Vec<String> = (0..10).map(row).chain((0..7).map(next)).collect();
+    let text = "time,x\n".to_owned() + &rows.concat();
+    assert!(streamed(FIVE, &text).1.contains("17 rows: 0 outliers\n"));
+    let back = text.replacen("50,5\n", "50,5\n23:59:49,5\n", 1);
+    let (_, err) = streamed(FIVE, &back);
+    assert!(err.contains("18 rows: 0 outliers, 1 with a time that is not after the one before\n"), "{err}");
 }
 
 #[test]

@@ -22,6 +22,7 @@ fn the_longest_range_of_a_still_count_gives_its_geometric_middle() {
 #[test]
 fn a_count_of_zero_is_no_plateau_and_neither_is_a_short_one() {
     assert_eq!(found(&[(1.0, 9), (2.0, 0), (4.0, 0), (8.0, 0)]), (vec![], None));
+    assert_eq!(found(&[(1.0, 1), (2.0, 0), (4.0, 0)]), (vec![], None), "one and none differ by one");
     assert_eq!(found(&[(1.0, 9), (1.4, 9), (2.0, 3), (2.9, 0)]), (vec![], None), "1.4 is below a factor of 1.5");
     assert_eq!(found(&[(1.0, 9), (1.5, 9), (2.0, 3), (2.9, 0)]), (vec![(1.0, 1.5)], Some(1.22)));
 }
