@@ -133,10 +133,13 @@ pub enum Command {
         threads: Option<usize>,
     },
     /// Count outliers along a parameter, and suggest a threshold.
+    #[command(long_about = tools::SWEEP)]
     Sweep(SweepArgs),
     /// Every method on one channel, side by side.
+    #[command(long_about = tools::COMPARE)]
     Compare(CompareArgs),
     /// Judge samples from standard input as they arrive.
+    #[command(long_about = tools::STREAM)]
     Stream(StreamArgs),
     /// List the methods, or explain one with its parameters.
     Methods {

@@ -9,14 +9,18 @@ use crate::error::Result;
 use crate::session::sweep::{FROM, STEPS, TO};
 use crate::session::{DEFAULT_METHOD, Preset, Setup};
 
-/// Count the outliers of a method along one of its parameters, and suggest a threshold.
-///
-/// True wild points stand far off: between the noise and them lies a range of thresholds that all flag the same
-/// samples. The table shows the count for each value of the parameter (the multiplier k or c when none is named).
-/// A plateau is a range over which the count is above 0 and changes by no more than 1 or 2 %; the suggestion is the
-/// geometric middle of the longest plateau that spans at least a factor of 1.5. Without one the record has no clear
-/// gap between noise and wild points, and the command says so. With a truth column the table also shows what is
-/// missed and what is flagged falsely. The decisions of an analyst play no part.
+/// The help of `sweep`.
+pub(super) const SWEEP: &str = "\
+     Count the outliers of a method along one of its parameters, and suggest a threshold.\n\n\
+     True wild points stand far off: between the noise and them lies a range of thresholds that all flag the \
+     same samples. The table shows the count for each value of the parameter (the multiplier k or c when none \
+     is named). A plateau is a range over which the count is above 0 and changes by no more than 1 or 2 %; the \
+     suggestion is the geometric middle of the longest plateau that spans at least a factor of 1.5. Without \
+     one the record has no clear gap between noise and wild points, and the command says so. With a truth \
+     column the table also shows what is missed and what is flagged falsely. The decisions of an analyst play \
+     no part. Without --channel the first channel is taken, and named.";
+
+/// What `sweep` goes along.
 #[derive(Debug, Clone, Args)]
 pub struct SweepArgs {
     /// The record.
@@ -73,15 +77,18 @@ pub struct JudgeArgs {
     pub max_gap: Option<String>,
 }
 
-/// Run every applicable method on one channel and put the results side by side.
-///
-/// The table has a row for each method: what it flags (isolated, in patches), its suspects, the samples it could
-/// not check, the time it took on one core, and, with a truth column, how much of the truth it found. Below stands
-/// the agreement: how many samples are flagged by so many of the methods. Methods that need a rate channel take part
-/// with --rate.
-///
-/// With --votes K a sample is an outlier when at least K of the methods flag it; -o, --flags and --diagnostics write
-/// that consensus, repaired by --repair.
+/// The help of `compare`.
+pub(super) const COMPARE: &str = "\
+     Run every applicable method on one channel and put the results side by side.\n\n\
+     The table has a row for each method: what it flags (isolated, in patches), its suspects, the samples it \
+     could not check, the time it took on one core, and, with a truth column, how much of the truth it found. \
+     Below stands the agreement: how many samples are flagged by so many of the methods. Methods that need a \
+     rate channel take part with --rate.\n\n\
+     With --votes K a sample is an outlier when at least K of the methods flag it; -o, --flags and \
+     --diagnostics write that consensus, repaired by --repair.\n\n\
+     Without --channel the first channel is taken, and named.";
+
+/// What `compare` puts side by side.
 #[derive(Debug, Clone, Args)]
 pub struct CompareArgs {
     /// The record.
@@ -121,23 +128,26 @@ pub struct CompareArgs {
     pub threads: Option<usize>,
 }
 
-/// Judge samples from standard input as they arrive.
-///
-/// One line goes out for every sample line that comes in, at once: row, time, value, verdict, expected value and
-/// tolerance. Methods: five-point, alpha-beta-gamma, adaptive, template, kalman (without infill), two-sided (forward
-/// only). What needs the future or the whole record is off: look_back, the pooled noise floor, the second direction,
-/// the fill of patches; `sigma`, the noise scale, must be a number (the precision of the instrument; `wildpoint
-/// inspect` measures it on a record), except for template; `floor` is 0 unless it is a number.
-///
-/// A sample that waits for a model to start is `unchecked` at first. When a start group is complete, and when a run
-/// of more than max_run outliers makes the model start again (told on standard error), what was said of samples
-/// before is said again in lines with `correction` in the last column (JSON: "correction": true). The last line
-/// about a row is what the method says of it when it runs over the whole record with these settings.
-///
-/// Lines that cannot be read come out with the verdict `unreadable`, those without a value, and those whose time
-/// does not lie after the one before, with `missing`; both are counted on standard error. Blank lines and comments
-/// (# % //) are passed over. Without --interval the nominal interval is the median of the first 9 steps; without
-/// --time three rows are looked at to find the time column. Output waits until then.
+/// The help of `stream`.
+pub(super) const STREAM: &str = "\
+     Judge samples from standard input as they arrive.\n\n\
+     One line goes out for every sample line that comes in, at once: row, time, value, verdict, expected value \
+     and tolerance. Methods: five-point, alpha-beta-gamma, adaptive, template, kalman (without infill), \
+     two-sided (forward only). What needs the future or the whole record is off: look_back, the pooled noise \
+     floor, the second direction, the fill of patches; `sigma`, the noise scale, must be a number (the \
+     precision of the instrument; `wildpoint inspect` measures it on a record), except for template; `floor` \
+     is 0 unless it is a number.\n\n\
+     A sample that waits for a model to start is `unchecked` at first. When a start group is complete, and \
+     when a run of more than max_run outliers makes the model start again (told on standard error), what was \
+     said of samples before is said again in lines with `correction` in the last column (JSON: \"correction\": \
+     true). The last line about a row is what the method says of it when it runs over the whole record with \
+     these settings.\n\n\
+     Lines that cannot be read come out with the verdict `unreadable`, those without a value, and those whose \
+     time does not lie after the one before, with `missing`; both are counted on standard error. Blank lines \
+     and comments (# % //) are passed over. Without --interval the nominal interval is the median of the first \
+     9 steps; without --time three rows are looked at to find the time column. Output waits until then. Without --channel the first column of numbers is judged, and named on standard error.";
+
+/// How `stream` reads and judges.
 #[derive(Debug, Clone, Args)]
 pub struct StreamArgs {
     /// Method: five-point, alpha-beta-gamma, adaptive, template, kalman, two-sided.

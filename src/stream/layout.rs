@@ -196,10 +196,17 @@ fn joined(lines: &[Line]) -> Vec<u8> {
     lines.iter().flat_map(|l| l.bytes.iter().chain(b"\n")).copied().collect()
 }
 
-/// The keys of the first object.
+/// The keys of the objects, each once.
 fn keys(lines: &[Line]) -> Vec<String> {
-    let first = lines.iter().find_map(|l| serde_json::from_slice::<Json>(&l.bytes).ok());
-    first.and_then(|v| Some(v.as_object()?.keys().cloned().collect())).unwrap_or_default()
+    let mut keys: Vec<String> = Vec::new();
+    for object in lines.iter().filter_map(|l| serde_json::from_slice::<Json>(&l.bytes).ok()) {
+        for key in object.as_object().into_iter().flat_map(|o| o.keys()) {
+            if !keys.contains(key) {
+                keys.push(key.clone());
+            }
+        }
+    }
+    keys
 }
 
 /// The objects as a table with a header, for the loader.

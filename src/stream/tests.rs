@@ -100,13 +100,15 @@ fn objects_say_what_cells_say() {
         let (t, x) = line.split_once(',').unwrap();
         text + &format!("{{\"x\": {x}, \"id\": \"a\", \"t\": {t}.0}}\n")
     });
-    let broken = objects.replacen("\"t\": 9.0}", "\"t\": 9.0", 1);
+    // The first object lacks the channel, and another is not closed.
+    let broken = objects.replacen("\"t\": 9.0}", "\"t\": 9.0", 1).replacen("\"x\": 5, ", "", 1);
     let (out, _) = streamed(&format!("{FIVE} --time t --channel x"), &broken);
     let told: Vec<serde_json::Value> = out.lines().map(|l| serde_json::from_str(l).unwrap()).collect();
     let first = |row: u64| told.iter().find(|v| v["row"] == row).unwrap();
     assert_eq!((&first(8)["verdict"], &first(8)["value"]), (&"outlier".into(), &90.0.into()));
     assert_eq!(first(10)["verdict"], "unreadable");
-    assert!(told.iter().any(|v| v["row"] == 1 && v["correction"] == true && v["verdict"] == "normal"));
+    assert_eq!(first(1)["verdict"], "missing");
+    assert!(told.iter().any(|v| v["row"] == 2 && v["correction"] == true && v["verdict"] == "normal"));
     assert_eq!(told.iter().filter(|v| v.get("correction").is_none()).count(), 12);
 }
 
