@@ -141,7 +141,7 @@ pub(super) const STREAM: &str = "\
      when a run of more than max_run outliers makes the model start again (told on standard error), what was \
      said of samples before is said again in lines with `correction` in the last column (JSON: \"correction\": \
      true). The last line about a row is what the method says of it when it runs over the whole record with \
-     these settings.\n\n\
+     these settings and this interval.\n\n\
      Lines that cannot be read come out with the verdict `unreadable`, those without a value, and those whose \
      time does not lie after the one before, with `missing`; both are counted on standard error. Blank lines \
      and comments (# % //) are passed over. Without --interval the nominal interval is the median of the first \
