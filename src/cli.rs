@@ -13,6 +13,8 @@ use crate::track::{Delimiter, LoadOptions};
 mod experiments;
 
 pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
+mod tools;
+pub use tools::{CompareArgs, FormatArg, JudgeArgs, StreamArgs, SweepArgs};
 
 /// Find, review and repair wild points of tracking records.
 ///
@@ -87,13 +89,22 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Detect and repair wild points of a file.
+    /// Detect and repair wild points of one file or many.
+    ///
+    /// With several files the outputs are folders (`-o DIR/`, `--flags DIR/`, ...): the cleaned file keeps its name,
+    /// the others are NAME.flags.csv, NAME.diagnostics.csv and NAME.toml. A file that fails does not stop the
+    /// others; the exit status is 2 then.
     Clean {
-        /// The record.
-        file: PathBuf,
+        /// The records.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
         /// How to load and judge it.
         #[command(flatten)]
         shared: Shared,
+        /// Take the multiplier (k or c) that `wildpoint sweep` suggests for each channel; where it suggests none, the
+        /// one that is set stays. The session says so.
+        #[arg(long)]
+        suggest: bool,
         /// What to write.
         #[command(flatten)]
         outputs: OutputArgs,
@@ -102,9 +113,13 @@ pub enum Command {
         save_session: Option<PathBuf>,
     },
     /// Run saved sessions again.
+    ///
+    /// With several sessions the outputs are folders (`-o DIR/`, `--flags DIR/`, ...), in which files are named after
+    /// the sessions. A session that fails does not stop the others; the exit status is 2 then, and 1 when only
+    /// comparisons failed.
     Replay {
-        /// Session files; several only with --check or without outputs.
-        #[arg(required = true)]
+        /// Session files.
+        #[arg(required = true, value_name = "SESSION")]
         sessions: Vec<PathBuf>,
         /// Compare with the result that each session recorded; write nothing. Exit status 1 when one differs.
         #[arg(long, conflicts_with_all = ["output", "flags", "diagnostics"])]
@@ -119,6 +134,15 @@ pub enum Command {
         #[arg(long, value_name = "N")]
         threads: Option<usize>,
     },
+    /// Count outliers along a parameter, and suggest a threshold.
+    #[command(long_about = tools::SWEEP)]
+    Sweep(SweepArgs),
+    /// Every method on one channel, side by side.
+    #[command(long_about = tools::COMPARE)]
+    Compare(CompareArgs),
+    /// Judge samples from standard input as they arrive.
+    #[command(long_about = tools::STREAM)]
+    Stream(StreamArgs),
     /// List the methods, or explain one with its parameters.
     Methods {
         /// Id of a method.

@@ -15,6 +15,7 @@ mod cleaned;
 mod document;
 mod replay;
 mod save;
+pub mod sweep;
 
 pub use analysis::{Counts, Detection, Fill, Mark, Outcome, Place, Run, detect, detect_together, settle};
 pub use cleaned::{changes, clean_sha256, write_cleaned};

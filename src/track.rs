@@ -38,11 +38,13 @@ pub use cells::Cells;
 pub use checks::RowChecks;
 pub use load::{LoadOptions, load};
 pub use number::number_text;
+pub(crate) use number::{Cell, Reading};
 pub use outputs::Outputs;
 pub use printable::printable;
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use series::{Samples, Series, lost_samples};
+pub(crate) use tokens::split;
 pub use widen::{NewColumn, widen};
 
 /// Where the bytes of a record come from.
