@@ -132,7 +132,7 @@ fn judge(track: &Track, index: usize, samples: &Samples, setup: &Setup) -> Resul
     let verdicts = detection.judged.verdict.clone();
     let outcome = settle(track, channel, samples, Arc::new(detection), &Decisions::default(), &stop)?;
     let series = samples.series(channel, &track.time);
-    let score = track.truth.as_ref().map(|truth| Score::of(&outcome, &series, truth));
+    let score = track.truth_for(&channel.name).map(|truth| Score::of(&outcome, &series, truth));
     Ok((Row::of(setup.method.about().id, &outcome.counts, Some(ms), score), verdicts))
 }
 

@@ -133,7 +133,7 @@ pub(super) fn written(
     }
     let outcome = consensus(votes, &setup, track, index, samples, ballot)?;
     let series = samples.series(channel, &track.time);
-    let score = track.truth.as_ref().map(|truth| Score::of(&outcome, &series, truth));
+    let score = track.truth_for(&channel.name).map(|truth| Score::of(&outcome, &series, truth));
     let row = Row::of("consensus", &outcome.counts, None, score);
     let mut session = Session::new(track, args.load.options(None), &setup);
     session.plans.retain(|p| p.channel == channel.name);

@@ -16,7 +16,7 @@ pub(super) struct Target {
 }
 
 /// Where the outputs of each input go. `name` gives the name of its cleaned file. With several inputs, and where a
-/// folder is named, the outputs are folders, which are made where they are missing.
+/// path ends like a folder, the outputs go into folders, which are made where they are missing.
 ///
 /// # Errors
 /// [`Error::Usage`] when several inputs would go to one file; [`Error::Io`] when a folder cannot be made.
@@ -29,7 +29,7 @@ pub(super) fn targets(
     let several = inputs.len() > 1;
     let named = [outputs.output.as_deref(), outputs.flags.as_deref(), outputs.diagnostics.as_deref(), session];
     for path in named.into_iter().flatten() {
-        if several && !is_folder(path) {
+        if several && !is_folder(path, several) {
             return Err(Error::usage(
                 format!("{}: several inputs cannot be written to one file", path.display()),
                 format!("name a folder: {}/", path.display()),
@@ -43,7 +43,7 @@ pub(super) fn targets(
         let stem = stem(&cleaned).to_owned();
         let mut place = |path: Option<&Path>, file: String| -> Result<Option<PathBuf>> {
             let Some(path) = path else { return Ok(None) };
-            if !is_folder(path) {
+            if !is_folder(path, several) {
                 return Ok(Some(path.to_path_buf()));
             }
             let target = path.join(file);
@@ -64,7 +64,7 @@ pub(super) fn targets(
         };
         targets.push(Target { outputs, session });
     }
-    for folder in named.into_iter().flatten().filter(|p| is_folder(p)) {
+    for folder in named.into_iter().flatten().filter(|p| is_folder(p, several)) {
         std::fs::create_dir_all(folder).map_err(Error::io("make the folder", folder))?;
     }
     Ok(targets)
@@ -75,9 +75,11 @@ pub(super) fn file_name(path: &Path) -> String {
     path.file_name().map_or_else(|| "cleaned.csv".into(), |n| n.to_string_lossy().into_owned())
 }
 
-fn is_folder(path: &Path) -> bool {
+/// True for a path that is meant as a folder. With one input a folder that is there has to be written as one, with a
+/// separator at its end: it may be a slip.
+fn is_folder(path: &Path, several: bool) -> bool {
     let ends_as_one = path.as_os_str().to_string_lossy().ends_with(std::path::is_separator);
-    ends_as_one || path.is_dir()
+    ends_as_one || (several && path.is_dir())
 }
 
 /// The name without its ending, and without `.gz` before that.

@@ -135,10 +135,10 @@ pub fn sweep(
     let base = detect(track, channel, samples, first, None, stop)?;
     let rest = setups[1..].par_iter().map(|(value, one)| {
         let detection = detect(track, channel, samples, one, Some(&base), stop)?;
-        Ok(count(*value, &detection, &series, track.truth.as_deref()))
+        Ok(count(*value, &detection, &series, track.truth_for(&channel.name)))
     });
     let rest: Vec<Point> = rest.collect::<Result<_>>()?;
-    let mut points = vec![count(*first_value, &base, &series, track.truth.as_deref())];
+    let mut points = vec![count(*first_value, &base, &series, track.truth_for(&channel.name))];
     points.extend(rest);
     Ok(Sweep::of(param.key, points))
 }
