@@ -17,6 +17,7 @@ use crate::job::Worker;
 use crate::session::Session;
 use crate::stop::Stop;
 use crate::track::Track;
+use advice::Advise;
 use input::{ESC_TIMEOUT_MS, Normaliser};
 use message::{Effect, Message, Written};
 use model::{Model, Tone};
@@ -26,6 +27,7 @@ use terminal::Screen;
 use theme::Theme;
 
 pub mod action;
+pub mod advice;
 pub mod drawn;
 mod input;
 pub mod keys;
@@ -120,7 +122,8 @@ pub fn run(opening: Opening, look: Look) -> Result<()> {
     let mut model = opening.model(look);
     let (sender, messages) = unbounded();
     let worker = office::judge(sender.clone());
-    let mut outside = Outside { worker, sender };
+    let advisor = advice::advise(sender.clone());
+    let mut outside = Outside { worker, advisor, sender };
     let signals = listen_for_signals()?;
     let mut screen = Screen::take()?;
     model.size = screen.size()?;
@@ -232,6 +235,7 @@ enum Next {
 /// What carries out effects.
 struct Outside {
     worker: Worker<Judge>,
+    advisor: Worker<Advise>,
     sender: Sender<Message>,
 }
 
@@ -239,8 +243,18 @@ impl Outside {
     fn carry_out(&mut self, model: &mut Model, screen: &mut Screen, effects: Vec<Effect>) -> Result<Next> {
         for effect in effects {
             match effect {
-                Effect::Analyse(plan) => model.awaited = Some(self.worker.submit(Judge::new(model, plan))),
-                Effect::Cancel => self.worker.cancel(),
+                Effect::Analyse(plan) => {
+                    // What the user waits for goes before advice.
+                    self.advisor.cancel();
+                    model.awaited = Some(self.worker.submit(Judge::new(model, plan)));
+                }
+                Effect::Advise(plan) => {
+                    self.advisor.submit(Advise::new(model, plan));
+                }
+                Effect::Cancel => {
+                    self.advisor.cancel();
+                    self.worker.cancel();
+                }
                 Effect::Save { path, overwrite, then_quit } => {
                     let what = Written::Session { revision: model.revision, then_quit };
                     self.write(model, Errand { what, path, overwrite });

@@ -80,7 +80,7 @@ fn wide(whole: Rect) -> Areas {
     // One row of air between the plots and the side.
     column.x += 1;
     column.width -= 1;
-    let parameters = top(&mut column, (side.height / 2).clamp(12, 20));
+    let parameters = top(&mut column, (side.height * 3 / 5).clamp(12, 24));
     let overview = top(&mut rest, if whole.height >= 36 { 5 } else { 4 });
     let card = bottom(&mut rest, 6);
     let third = rest.height / 3;

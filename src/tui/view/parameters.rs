@@ -6,10 +6,12 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
+use super::super::advice::Advice;
 use super::super::drawn::Drawn;
 use super::super::model::{Knob, Model};
 use super::super::update::value_text;
-use super::{clear, fit, heading, thousands};
+use super::{clear, fit, heading, short, thousands};
+use crate::param::Value;
 use crate::track::printable;
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
@@ -21,12 +23,19 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     let height = usize::from(body.height);
     let blocks = notes(model, usize::from(body.width).saturating_sub(1));
     // The first block (the counts) always shows; the others where they fit whole, once the knobs have their rows.
-    let least = if model.focus == Panel::Parameters { height / 2 } else { height / 3 };
+    let least = if model.focus == Panel::Parameters { height * 3 / 5 } else { height * 9 / 20 };
     let spare = height.saturating_sub(knobs.len()).max(least);
     let mut lines: Vec<(String, bool)> = Vec::new();
     for (index, block) in blocks.into_iter().enumerate() {
         if index == 0 || lines.len() + block.len() <= spare {
             lines.extend(block);
+        }
+    }
+    // Facts take what is left, and no knob its row.
+    for fact in model.plan().setup.method.notes(&model.plan().setup.settings) {
+        let block = wrapped(&fact, usize::from(body.width).saturating_sub(1));
+        if lines.len() + block.len() + knobs.len() <= height {
+            lines.extend(block.into_iter().map(|line| (line, false)));
         }
     }
     lines.truncate(height.saturating_sub(4));
@@ -83,13 +92,18 @@ fn put(line: Line<'_>, row: usize, body: Rect, buffer: &mut Buffer) {
 }
 
 /// Blocks of rows of at most `width` columns, the most wanted first: counts, the help of the active knob while the
-/// panel has the keyboard, warnings, facts. True for a warning.
+/// panel has the keyboard, warnings. True for a warning.
 fn notes(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
     let mut blocks = Vec::new();
     let block = |text: &str, warn: bool| wrapped(text, width).into_iter().map(|line| (line, warn)).collect::<Vec<_>>();
     let setup = &model.plan().setup;
     if let Some(drawn) = &model.state().drawn {
         blocks.push(counts(drawn, width));
+    }
+    let advice = model.advice().map(|advice| advice_rows(model, advice, width));
+    let about_it = model.advice().is_some_and(|advice| model.knob().name() == advice.sweep.key);
+    if about_it {
+        blocks.extend(advice.clone());
     }
     if model.focus == Panel::Parameters
         && let Knob::Detection(p) | Knob::Repair(p) = model.knob()
@@ -99,13 +113,48 @@ fn notes(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
         help.extend(block(&format!("{} [{}], default {}{paper}", p.help, p.range(), p.default), false));
         blocks.push(help);
     }
+    if !about_it {
+        blocks.extend(advice);
+    }
     let mut warnings = setup.method.warnings(&setup.settings);
     if let Some(drawn) = model.state().drawn.as_ref().filter(|_| !model.state().stale) {
         warnings.extend(drawn.outcome.detection.judged.warnings.iter().cloned());
     }
     blocks.extend(warnings.iter().map(|warning| block(warning, true)));
-    blocks.extend(setup.method.notes(&setup.settings).iter().map(|note| block(note, false)));
     blocks
+}
+
+/// The counts along the multiplier as a small curve, and what it suggests. The mark under it is where the multiplier is.
+fn advice_rows(model: &Model, advice: &Advice, width: usize) -> Vec<(String, bool)> {
+    let sweep = &advice.sweep;
+    let columns = width.min(sweep.points.len()).max(1);
+    let at = |column: usize| &sweep.points[column * (sweep.points.len() - 1) / columns.max(2).saturating_sub(1)];
+    let most = sweep.points.iter().map(|p| p.flagged).max().unwrap_or(0);
+    // Counts span decades: the height is that of the logarithm.
+    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+    let height = |flagged: usize| {
+        let share = (flagged as f64 + 1.0).ln() / (most as f64 + 1.0).ln().max(f64::MIN_POSITIVE);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 8")]
+        let eighths = (share * 8.0).round() as u8;
+        if flagged == 0 { ' ' } else { model.glyphs.bar(eighths.clamp(1, 8)) }
+    };
+    let curve: String = (0..columns).map(|c| height(at(c).flagged)).collect();
+    let now = model.plan().setup.settings.get(sweep.key);
+    let now = now.and_then(|v| if let Value::Real(x) = v { Some(x) } else { None }).unwrap_or(0.0);
+    let mark = (0..columns).take_while(|c| at(*c).value <= now).count().saturating_sub(1);
+    let ends = [sweep.points.first(), sweep.points.last()].map(|p| p.map_or(0.0, |p| p.value));
+    let scale = format!("{:>mark$}^", "");
+    let words = match (sweep.suggestion, sweep.suggested()) {
+        (Some(value), Some(p)) => {
+            let count = if p.least == p.most { p.most.to_string() } else { format!("{} to {}", p.least, p.most) };
+            format!("f takes {} {value}: {count} flagged from {} to {}", sweep.key, short(p.from), short(p.to))
+        }
+        _ => "no clear gap between noise and wild points".to_owned(),
+    };
+    let head = format!("flagged for {} from {} to {}", sweep.key, ends[0], ends[1]);
+    let mut rows = vec![(head, false), (curve, false), (scale, false)];
+    rows.extend(wrapped(&words, width).into_iter().map(|line| (line, false)));
+    rows
 }
 
 /// How many samples are what.
