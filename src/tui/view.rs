@@ -202,6 +202,13 @@ fn fit(text: &str, width: usize) -> String {
     out
 }
 
+/// True when times of day alone would not tell the samples of the record apart.
+fn several_days(model: &Model) -> bool {
+    let series = model.series();
+    let date = |t: Option<&f64>| t.and_then(|t| model.track.time.date(*t));
+    date(series.t.first()) != date(series.t.last())
+}
+
 /// A whole number with thousands set apart.
 fn thousands(n: usize) -> String {
     let digits = n.to_string();

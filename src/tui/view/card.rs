@@ -11,7 +11,7 @@ use super::super::model::Model;
 use super::super::plot::{FlagState, Glyphs};
 use super::super::update::mark_at;
 use super::queue::ratio_text;
-use super::{clear, heading, short};
+use super::{clear, heading, several_days, short};
 use crate::method::{Direction, Verdict};
 use crate::session::Mark;
 use crate::track::{Series, printable};
@@ -78,9 +78,12 @@ pub(super) fn state_word(state: FlagState) -> &'static str {
 fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Line<'static> {
     let theme = &model.theme;
     let full = model.track.time.full_label(series.t[i]);
-    // On a narrow screen the date has to go: the axis above is of the same day.
+    // On a narrow screen the date has to go, unless the record has several.
     let time = match (narrow, full.split_once(' ')) {
-        (true, Some((_, rest))) if model.track.time.date(0.0).is_some() => rest.trim_end_matches(" UTC").to_owned(),
+        (true, Some((_, rest))) if model.track.time.date(0.0).is_some() && !several_days(model) => {
+            rest.trim_end_matches(" UTC").to_owned()
+        }
+        (true, _) => full.trim_end_matches(" UTC").to_owned(),
         _ => full,
     };
     let mut spans = vec![
