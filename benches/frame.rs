@@ -100,8 +100,17 @@ fn of_size(criterion: &mut Criterion, name: &str, n: usize, share_flagged: f64) 
                 b.iter(|| {
                     let (columns, glyphs, cursor) = (black_box(&columns), Glyphs::Unicode, None);
                     let pyramid = &ratios;
-                    ResidualPlot { columns, ratio: &ratio, pyramid, top: 3.0, theme: &theme, glyphs, cursor }
-                        .render(Rect { height: 10, ..AREA }, &mut buffer);
+                    ResidualPlot {
+                        columns,
+                        ratio: &ratio,
+                        pyramid,
+                        threshold: 1.0,
+                        top: 3.0,
+                        theme: &theme,
+                        glyphs,
+                        cursor,
+                    }
+                    .render(Rect { height: 10, ..AREA }, &mut buffer);
                 });
             });
         }

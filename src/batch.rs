@@ -7,13 +7,22 @@ use clap::CommandFactory;
 
 use crate::cli::{Cli, Command, Load, OutputArgs};
 use crate::error::{Error, Result};
-use crate::experiment;
 use crate::report::Inspection;
-use crate::track::{Source, load};
+use crate::track::{Source, Track, load};
 
 mod clean;
+mod compare;
+mod comparison;
+mod consensus;
+mod experiments;
+mod inject;
 mod methods;
 mod replay;
+mod set;
+mod suggest;
+mod sweep;
+mod table;
+mod targets;
 
 pub use methods::markdown as methods_table;
 
@@ -24,6 +33,8 @@ pub enum Ending {
     Done,
     /// A comparison failed.
     Differs,
+    /// Some of several inputs failed, which has been told; the others are done.
+    Failed,
 }
 
 /// Runs a command; what it prints goes to `out`.
@@ -33,8 +44,8 @@ pub enum Ending {
 pub fn run(command: Command, out: &mut dyn Write) -> Result<Ending> {
     match command {
         Command::Inspect { file, load, json } => inspect(&file, &load, json, out),
-        Command::Clean { file, shared, outputs, save_session } => {
-            clean::run(&file, &shared, &outputs, save_session.as_deref(), out)
+        Command::Clean { files, shared, suggest, outputs, save_session } => {
+            clean::run(&files, (&shared, suggest), &outputs, save_session.as_deref(), out)
         }
         Command::Replay { sessions, check, accept_changed_data, outputs, threads } => {
             set_threads(threads)?;
@@ -44,11 +55,15 @@ pub fn run(command: Command, out: &mut dyn Write) -> Result<Ending> {
                 replay::run_all(&sessions, accept_changed_data, &outputs, out)
             }
         }
-        Command::Methods { id, json, markdown } => methods::run(id.as_deref(), json, markdown, out),
-        Command::Simulate { experiment, seed } => {
-            let experiment = experiment::find(&experiment)?;
-            print(out, &(experiment.csv)(seed.unwrap_or(experiment.seed)))
+        Command::Sweep(args) => sweep::run(&args, out),
+        Command::Compare(args) => compare::run(&args, out),
+        Command::Stream(args) => {
+            crate::stream::run(&args, std::io::stdin().lock(), out, &mut std::io::stderr()).map(|()| Ending::Done)
         }
+        Command::Methods { id, json, markdown } => methods::run(id.as_deref(), json, markdown, out),
+        Command::Simulate(args) => experiments::simulate(&args, out),
+        Command::Reproduce(args) => experiments::reproduce(&args, out),
+        Command::Inject(args) => inject::run(&args, out),
         Command::Completions { shell } => {
             // Generated first and printed then: the generator panics where it cannot write, at a closed pipe say.
             let mut script = Vec::new();
@@ -92,6 +107,25 @@ fn inspect(file: &Path, options: &Load, json: bool, out: &mut dyn Write) -> Resu
     let track = load(&Source::File(file.to_path_buf()), &options.options(None))?;
     let inspection = Inspection::of(&track);
     if json { print_json(out, &inspection) } else { print(out, &inspection.text()) }
+}
+
+/// The record with the index of the one channel to work on, and a remark where nobody named it.
+fn one_channel(file: &Path, options: &Load, rate: Option<&str>) -> Result<(Track, usize, String)> {
+    if options.channel.len() > 1 {
+        return Err(Error::usage("several channels were named", "name one with --channel"));
+    }
+    let track = load(&Source::File(file.to_path_buf()), &options.options(rate))?;
+    let wanted = |name: &str| options.channel.first().map_or(Some(name) != rate, |c| c == name);
+    let Some(index) = track.channels.iter().position(|c| wanted(&c.name)) else {
+        return Err(Error::input(file, "no column of numbers but the rate", "name another --channel or --rate"));
+    };
+    let others = track.channels.len() - 1;
+    let note = if options.channel.is_empty() && others > 0 {
+        format!("; --channel names one of the {others} others")
+    } else {
+        String::new()
+    };
+    Ok((track, index, note))
 }
 
 /// Tells on standard output what came out, as the options want it.

@@ -10,6 +10,12 @@ use crate::repair;
 use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
 use crate::track::{Delimiter, LoadOptions};
 
+mod experiments;
+
+pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
+mod tools;
+pub use tools::{CompareArgs, FormatArg, JudgeArgs, StreamArgs, SweepArgs};
+
 /// Find, review and repair wild points of tracking records.
 ///
 /// Without a command: opens the workbench on FILE, on a SESSION saved before, or on the built-in demonstration
@@ -74,7 +80,6 @@ pub enum Glyphs {
 
 /// The commands that need no screen.
 #[derive(Debug, Subcommand)]
-#[expect(clippy::large_enum_variant, reason = "one is made per run of the program")]
 pub enum Command {
     /// Print what the loader understands of a file: columns, times, gaps, noise, bad rows.
     Inspect {
@@ -87,13 +92,22 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Detect and repair wild points of a file.
+    /// Detect and repair wild points of one file or many.
+    ///
+    /// With several files the outputs are folders (`-o DIR/`, `--flags DIR/`, ...): the cleaned file keeps its name,
+    /// the others are NAME.flags.csv, NAME.diagnostics.csv and NAME.toml. A file that fails does not stop the
+    /// others; the exit status is 2 then.
     Clean {
-        /// The record.
-        file: PathBuf,
+        /// The records.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
         /// How to load and judge it.
         #[command(flatten)]
         shared: Shared,
+        /// Take the multiplier (k or c) that `wildpoint sweep` suggests for each channel; where it suggests none, the
+        /// one that is set stays. The session says so.
+        #[arg(long)]
+        suggest: bool,
         /// What to write.
         #[command(flatten)]
         outputs: OutputArgs,
@@ -102,9 +116,13 @@ pub enum Command {
         save_session: Option<PathBuf>,
     },
     /// Run saved sessions again.
+    ///
+    /// With several sessions the outputs are folders (`-o DIR/`, `--flags DIR/`, ...), in which files are named after
+    /// the sessions. A session that fails does not stop the others; the exit status is 2 then, and 1 when only
+    /// comparisons failed.
     Replay {
-        /// Session files; several only with --check or without outputs.
-        #[arg(required = true)]
+        /// Session files.
+        #[arg(required = true, value_name = "SESSION")]
         sessions: Vec<PathBuf>,
         /// Compare with the result that each session recorded; write nothing. Exit status 1 when one differs.
         #[arg(long, conflicts_with_all = ["output", "flags", "diagnostics"])]
@@ -119,6 +137,15 @@ pub enum Command {
         #[arg(long, value_name = "N")]
         threads: Option<usize>,
     },
+    /// Count outliers along a parameter, and suggest a threshold.
+    #[command(long_about = tools::SWEEP)]
+    Sweep(SweepArgs),
+    /// Every method on one channel, side by side.
+    #[command(long_about = tools::COMPARE)]
+    Compare(CompareArgs),
+    /// Judge samples from standard input as they arrive.
+    #[command(long_about = tools::STREAM)]
+    Stream(StreamArgs),
     /// List the methods, or explain one with its parameters.
     Methods {
         /// Id of a method.
@@ -130,14 +157,12 @@ pub enum Command {
         #[arg(long, hide = true)]
         markdown: bool,
     },
-    /// Write simulated data.
-    Simulate {
-        /// Which.
-        experiment: String,
-        /// Seed of the random numbers.
-        #[arg(long)]
-        seed: Option<u64>,
-    },
+    /// Write the data of a published experiment.
+    Simulate(SimulateArgs),
+    /// Run the published experiments and print their tables beside ours.
+    Reproduce(ReproduceArgs),
+    /// Add known wild points to a record, with truth.
+    Inject(InjectArgs),
     /// Print shell completions.
     Completions {
         /// The shell.
@@ -212,6 +237,10 @@ pub struct Shared {
     /// Channel that measures the rate of the judged one, for methods that need one.
     #[arg(long, value_name = "COLUMN")]
     pub rate: Option<String>,
+    /// Column of outlier-free values, which is not judged: the summary of `clean` then has the final error of the
+    /// first judged channel, sqrt(mean((clean - reference)^2)) over the samples that have a value in the output.
+    #[arg(long, value_name = "COLUMN")]
+    pub reference: Option<String>,
     /// Method (see `wildpoint methods`).
     #[arg(long, value_name = "ID", default_value = DEFAULT_METHOD)]
     pub method: String,

@@ -16,5 +16,6 @@ pub mod review;
 pub mod score;
 pub mod session;
 pub mod stop;
+pub mod stream;
 pub mod track;
 pub mod tui;

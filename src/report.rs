@@ -10,11 +10,13 @@ use crate::track::{Cells, Series, Track, for_each_row};
 mod diagnostics;
 mod flags;
 mod inspection;
+mod reproduction;
 mod summary;
 
 pub use diagnostics::diagnostics;
 pub use flags::flags;
 pub use inspection::{ChannelFacts, Inspection};
+pub use reproduction::reproduction_text;
 pub use summary::{ChannelSummary, Summary};
 
 /// One channel of a result, walked row by row.

@@ -4,6 +4,10 @@ use crate::method::Verdict;
 use crate::session::Outcome;
 use crate::track::Series;
 
+mod detail;
+
+pub use detail::{Events, FinalError, Part, RunLength, Scores, final_error};
+
 /// Hits and misses against a truth column, over the present samples. Section 1 of the methods page.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Score {
@@ -30,8 +34,6 @@ impl Score {
         let hits = outcome.outliers.iter().filter(|&&i| wild(i)).count();
         debug_assert!(outcome.outliers.iter().all(|&i| outcome.verdict(i) == Verdict::Outlier));
         let flagged = outcome.outliers.len();
-        #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-        let ratio = |a: usize, b: usize| (b > 0).then(|| a as f64 / b as f64);
         Self {
             wild: all,
             hits,
@@ -41,4 +43,12 @@ impl Score {
             precision: ratio(hits, flagged),
         }
     }
+}
+
+/// `a / b`; none when `b` is 0.
+#[must_use]
+pub fn ratio(a: usize, b: usize) -> Option<f64> {
+    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+    let ratio = a as f64 / b as f64;
+    (b > 0).then_some(ratio)
 }

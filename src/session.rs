@@ -16,6 +16,7 @@ mod document;
 pub mod journal;
 mod replay;
 mod save;
+pub mod sweep;
 
 pub use analysis::{Counts, Detection, Fill, Mark, Outcome, Place, Run, detect, detect_together, settle};
 pub use cleaned::{changes, clean_sha256, write_cleaned};

@@ -32,11 +32,13 @@ mod stamp;
 mod text;
 mod timing;
 mod tokens;
+mod widen;
 
 pub use cells::Cells;
 pub use checks::RowChecks;
 pub use load::{LoadOptions, load};
 pub use number::number_text;
+pub(crate) use number::{Cell, Reading};
 pub use outputs::Outputs;
 #[cfg(test)]
 pub(crate) use outputs::faults;
@@ -44,6 +46,8 @@ pub use printable::printable;
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use series::{Samples, Series, lost_samples};
+pub(crate) use tokens::split;
+pub use widen::{NewColumn, widen};
 
 /// Where the bytes of a record come from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -78,6 +82,8 @@ pub struct Track {
     pub channels: Vec<Channel>,
     /// The truth column, where there is one: true marks a real outlier.
     pub truth: Option<Vec<bool>>,
+    /// True when the user named the truth column, false when it was recognised.
+    pub truth_told: bool,
     /// What could not be used, with line numbers.
     pub faults: Faults,
     /// What the user should know before trusting the record, in plain words.
@@ -283,6 +289,20 @@ impl TimeFormat {
 }
 
 impl Track {
+    /// The truth about a channel: the truth column that the user named; one that was recognised only where its name
+    /// fits, so that `vx_truth_outlier` is about `vx_mps` and not about `alt_m`.
+    #[must_use]
+    pub fn truth_for(&self, channel: &str) -> Option<&[bool]> {
+        let truth = self.truth.as_deref()?;
+        let mut columns = self.columns.iter().filter(|c| c.kind == ColumnKind::Truth);
+        let about = match (&self.truth_told, columns.next()) {
+            (false, Some(column)) => column.name.split("truth").next().unwrap_or("").trim_end_matches('_'),
+            _ => "",
+        };
+        let is_about = |name: &str| name.starts_with(about);
+        (is_about(channel) || !self.channels.iter().any(|c| is_about(&c.name))).then_some(truth)
+    }
+
     /// The channel of this name.
     #[must_use]
     pub fn channel(&self, name: &str) -> Option<&Channel> {

@@ -17,6 +17,7 @@ use crate::job::Worker;
 use crate::session::Session;
 use crate::stop::Stop;
 use crate::track::Track;
+use advice::Advise;
 use input::{ESC_TIMEOUT_MS, Normaliser};
 use journal::Journal;
 use message::{Effect, Message, Written};
@@ -29,6 +30,7 @@ use terminal::Screen;
 use theme::Theme;
 
 pub mod action;
+pub mod advice;
 pub mod drawn;
 mod input;
 pub mod journal;
@@ -124,9 +126,10 @@ pub fn text_of(buffer: &Buffer) -> String {
 pub fn run(opening: Opening, look: Look, journal: Option<PathBuf>) -> Result<Ended> {
     let mut model = opening.model(look);
     let (sender, messages) = unbounded();
+    let (worker, advisor) = (office::judge(sender.clone()), advice::advise(sender.clone()));
     let signals = signals::listen()?;
     let journal = Journal::start(journal, &mut model, sender.clone());
-    let mut outside = Outside { worker: office::judge(sender.clone()), sender, journal };
+    let mut outside = Outside { worker, advisor, sender, journal };
     let mut screen = Screen::take()?;
     let left = work(&mut model, &mut outside, &mut screen, &messages, &signals);
     let left = match left {
@@ -232,6 +235,7 @@ enum Next {
 /// What carries out effects.
 struct Outside {
     worker: Worker<Judge>,
+    advisor: Worker<Advise>,
     sender: Sender<Message>,
     journal: Journal,
 }
@@ -251,8 +255,18 @@ impl Outside {
     fn carry_out(&mut self, model: &mut Model, screen: &mut Screen, effects: Vec<Effect>) -> Result<Next> {
         for effect in effects {
             match effect {
-                Effect::Analyse(plan) => model.awaited = Some(self.worker.submit(Judge::new(model, plan))),
-                Effect::Cancel => self.worker.cancel(),
+                Effect::Analyse(plan) => {
+                    // What the user waits for goes before advice.
+                    self.advisor.cancel();
+                    model.awaited = Some(self.worker.submit(Judge::new(model, plan)));
+                }
+                Effect::Advise(plan) => {
+                    self.advisor.submit(Advise::new(model, plan));
+                }
+                Effect::Cancel => {
+                    self.advisor.cancel();
+                    self.worker.cancel();
+                }
                 Effect::Save { path, overwrite, then_quit } => {
                     let what = Written::Session { revision: model.revision, then_quit };
                     self.write(model, Errand { what, path, overwrite });

@@ -326,3 +326,36 @@ fn nobody_waits_for_a_job_that_was_stopped() {
         assert!(judged.is_err(), "{} went on", id(*method));
     }
 }
+
+#[test]
+fn what_is_said_of_a_sample_stays_with_it_when_other_segments_cannot_be_judged() {
+    // Three samples, a gap, a record with spikes, a gap, two samples: a method may have nothing to say of the ends.
+    let whole = eventful(17);
+    let mut cut = whole.clone();
+    (3..1500).for_each(|i| cut.t[i] += 100.0);
+    (1498..1500).for_each(|i| cut.t[i] += 100.0);
+    // The middle by itself, on the same times.
+    let middle = Record { t: cut.t[3..1498].to_vec(), y: cut.y[3..1498].to_vec(), rate: cut.rate[3..1498].to_vec() };
+    for method in METHODS.iter().filter(|m| id(**m) != "matched") {
+        for settings in presets(*method) {
+            let (all, alone) = (cut.judge(*method, &settings), middle.judge(*method, &settings));
+            let name = id(*method);
+            assert!(all.verdict[3..1498] == alone.verdict, "{name}: verdicts");
+            for (what, length) in [
+                ("scale", all.scale.len()),
+                ("directions", all.directions.len()),
+                ("codes", all.repair_code.len()),
+                ("own", all.own.len()),
+            ] {
+                assert!(length == 0 || length == 1500, "{name}: {length} {what} of 1500 samples");
+            }
+            if !alone.directions.is_empty() {
+                assert!(all.directions[3..1498] == alone.directions, "{name}: directions");
+                assert!(all.repair_code[3..1498] == alone.repair_code, "{name}: codes");
+            }
+            let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
+            assert!(alone.own.is_empty() || same(&all.own[3..1498], &alone.own), "{name}: own repair");
+            assert!(alone.scale.is_empty() || same(&all.scale[3..1498], &alone.scale), "{name}: scales");
+        }
+    }
+}

@@ -240,3 +240,17 @@ fn a_file_that_changed_is_not_read_as_if_it_had_not() {
     assert!(e.contains("the file changed since it was loaded"), "{e}");
     assert!(for_each_row(&track, |_, _| Ok(())).is_err());
 }
+
+#[test]
+fn a_recognised_truth_column_is_about_the_channel_that_its_name_fits() {
+    let text = "t,vx_mps,alt_m,vx_truth_outlier\n0,1,2,0\n1,1,2,1\n2,1,2,0\n";
+    let source = Source::BuiltIn { name: "test", bytes: text.as_bytes().into() };
+    let by_itself = load(&source, &LoadOptions::default()).unwrap();
+    assert_eq!(by_itself.truth_for("vx_mps"), Some(&[false, true, false][..]));
+    assert_eq!(by_itself.truth_for("alt_m"), None);
+    let told = LoadOptions { truth: Some("vx_truth_outlier".into()), ..LoadOptions::default() };
+    assert!(load(&source, &told).unwrap().truth_for("alt_m").is_some());
+    let general = text.replace("vx_truth", "truth");
+    let source = Source::BuiltIn { name: "test", bytes: general.as_bytes().into() };
+    assert!(load(&source, &LoadOptions::default()).unwrap().truth_for("alt_m").is_some());
+}

@@ -45,7 +45,7 @@ fn the_first_frame_shows_record_trace_and_flags() {
         let (_folder, terminal) = workbench(size);
         terminal.look(|screen| {
             let text = screen.contents();
-            assert!(title(screen).contains("demo.csv · vx_mps [m/s] (1/2) · 2,356 samples"), "{text}");
+            assert!(title(screen).contains("demo.csv · vx_mps [m/s] (1/2)"), "{text}");
             assert!(text.contains("1 trace all 2,356 samples") && text.contains("5 flag 1 of "), "{text}");
             // A curve, and the rail under it.
             assert!(text.chars().any(|c| ('\u{2801}'..='\u{28ff}').contains(&c)), "{text}");
@@ -274,8 +274,8 @@ fn bytes_for(terminal: &mut Terminal, keys: &str, shown: &str) -> usize {
 #[test]
 fn few_bytes_go_over_the_wire() {
     let (folder, mut terminal) = workbench(WIDE);
-    // This only holds what has been reached (1232 and 871); the bar of the design is in the test below.
-    let steps = [("k 4.0 → 4.1", 1400), ("k 4.1 → 4.2", 1100)];
+    // This only holds what has been reached (778, and less once the queue stays as it is); the bar of the design is in the test below.
+    let steps = [("k 4.0 → 4.1", 900), ("k 4.1 → 4.2", 900)];
     for (shown, most) in steps {
         let bytes = bytes_for(&mut terminal, ".", shown);
         assert!(bytes < most, "a threshold step takes {bytes} bytes");
@@ -294,7 +294,7 @@ fn few_bytes_go_over_the_wire() {
 }
 
 #[test]
-#[ignore = "not reached yet: residuals and queue are in tolerances, so that every step of k redraws them all"]
+#[ignore = "not reached by a step that adds a flag above: the rows of the queue move"]
 fn a_threshold_step_keeps_to_the_bar_of_the_design() {
     let (_folder, mut terminal) = workbench(WIDE);
     for shown in ["k 4.0 → 4.1", "k 4.1 → 4.2"] {

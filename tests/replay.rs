@@ -240,7 +240,7 @@ fn outputs_of_a_replay_never_take_the_place_of_session_or_record() {
     }
     let several = folder.run("replay demo.toml demo.toml -o clean.csv");
     assert_eq!(several.status, 2);
-    assert!(several.err.contains("--check"), "{}", several.err);
+    assert!(several.err.contains("name a folder"), "{}", several.err);
     assert_eq!(folder.run("replay demo.toml --check -o clean.csv").status, 2);
     assert_eq!(folder.names(), ["demo.csv", "demo.toml"]);
 }

@@ -11,9 +11,11 @@ use insta::{assert_debug_snapshot, assert_snapshot};
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
+use wildpoint::param::Value;
 use wildpoint::session::{Session, Setup};
 use wildpoint::stop::Stop;
 use wildpoint::track::{LoadOptions, Source, load};
+use wildpoint::tui::advice::Advise;
 use wildpoint::tui::message::{Effect, Message};
 use wildpoint::tui::model::Model;
 use wildpoint::tui::office::Judge;
@@ -200,4 +202,25 @@ fn without_colours_and_in_ascii() {
 fn styles_of_a_review() {
     assert_debug_snapshot!(Bench::on("demo.csv", UNICODE_DARK).keys(REVIEWED).buffer());
     assert_debug_snapshot!(Bench::on("demo.csv", ASCII_MONO).keys(REVIEWED).buffer());
+}
+
+#[test]
+fn the_threshold_that_the_record_suggests() {
+    // What the advisor would send for the record, and the key that takes it.
+    let mut bench = Bench::on("demo.csv", UNICODE_DARK).size((120, 40));
+    let advice = Advise::new(&bench.0, 0).run(&Stop::never()).unwrap();
+    let suggestion = advice.sweep.suggestion;
+    update(&mut bench.0, Message::Advised { plan: 0, advice: Box::new(advice) });
+    insta::assert_snapshot!("advice_120x40", bench.frame());
+    let bench = bench.keys("f");
+    let now = bench.0.plan().setup.settings.get("k");
+    assert_eq!(now, suggestion.map(Value::Real), "f takes the suggestion");
+    // It does not depend on the multiplier it is about, and is not asked for again; another order drops it.
+    assert!(bench.0.advice().is_some());
+    let mut other = Bench::on("demo.csv", UNICODE_DARK);
+    let advice = Advise::new(&other.0, 0).run(&Stop::never()).unwrap();
+    update(&mut other.0, Message::Advised { plan: 0, advice: Box::new(advice) });
+    let other = other.keys("; .");
+    assert_eq!(other.0.plan().setup.settings.get("k"), Some(Value::Real(4.0)), "another knob was turned");
+    assert!(other.0.advice().is_none(), "the counts of other settings are not shown");
 }

@@ -1,43 +1,74 @@
 //! `clean`: detect and repair; and the writing of outputs that `replay` shares.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use super::set;
+use super::suggest;
+use super::targets::{Target, file_name, targets};
 use super::{Ending, set_threads, tell};
 use crate::cli::{OutputArgs, Shared};
 use crate::error::{Error, Result};
 use crate::report::{Summary, diagnostics, flags};
-use crate::session::{Analysed, Session, document, write_cleaned};
+use crate::session::{Analysed, Session, Setup, document, write_cleaned};
 use crate::stop::Stop;
 use crate::track::{Outputs, Source, Track, load};
 
 pub(super) fn run(
-    file: &Path,
-    shared: &Shared,
+    files: &[PathBuf],
+    (shared, suggested): (&Shared, bool),
     outputs: &OutputArgs,
     save_session: Option<&Path>,
     out: &mut dyn Write,
 ) -> Result<Ending> {
     set_threads(shared.threads)?;
     let setup = shared.setup()?;
-    let options = shared.load.options(shared.rate.as_deref());
+    if suggested {
+        suggest::check(shared)?;
+    }
+    let work = |file: &Path, target: &Target| one(file, (shared, suggested), &setup, target);
+    let targets = targets(files, outputs, save_session, file_name)?;
+    if let ([file], [target]) = (files, targets.as_slice()) {
+        return tell(outputs, &work(file, target)?, out);
+    }
+    let jobs: Vec<(&PathBuf, Target)> = files.iter().zip(targets).collect();
+    let quiet = outputs.quiet || outputs.json;
+    let results = set::for_all(&jobs, quiet, |(file, target)| work(file, target));
+    set::tell(files, &results, outputs, out)
+}
+
+fn one(file: &Path, (shared, suggested): (&Shared, bool), setup: &Setup, target: &Target) -> Result<Summary> {
+    let outputs = &target.outputs;
+    let mut options = shared.load.options(shared.rate.as_deref());
+    if let Some(reference) = &shared.reference
+        && !options.channels.is_empty()
+        && !options.channels.contains(reference)
+    {
+        options.channels.push(reference.clone());
+    }
     let track = load(&Source::File(file.to_path_buf()), &options)?;
-    let mut session = Session::new(&track, shared.load.options(None), &setup);
+    let mut session = Session::new(&track, shared.load.options(None), setup);
     // A rate channel that was loaded beside the named ones is not judged.
     if !shared.load.channel.is_empty() {
         session.plans.retain(|p| shared.load.channel.contains(&p.channel) || shared.rate.as_ref() != Some(&p.channel));
     }
+    session.plans.retain(|p| shared.reference.as_ref() != Some(&p.channel));
+    let notes = if suggested { suggest::suggest(&mut session, &track)? } else { Vec::new() };
     let analysed = Analysed::of(&session, &track, &Stop::never())?;
     let mut summary = Summary::of(&track, &session, &analysed);
+    summary.channels.iter_mut().zip(&notes).for_each(|(channel, note)| channel.warnings.insert(0, note.clone()));
+    if let Some(reference) = &shared.reference {
+        summary.compare_with(&track, &analysed, reference)?;
+    }
     let inputs: Vec<&Path> = track.source.path().into_iter().collect();
     let mut files = Outputs::new(outputs.force, &inputs);
     stage(&mut files, outputs, &track, &session, &analysed, &mut summary)?;
-    if let Some(path) = save_session {
-        let text = document(&mut session, &track, &analysed, path)?;
+    if let Some(path) = &target.session {
+        let text = suggest::noted(&document(&mut session, &track, &analysed, path)?, &notes);
         files.stage(path, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", path)))?;
     }
     files.commit()?;
-    tell(outputs, &summary, out)
+    Ok(summary)
 }
 
 /// Prepares the outputs that were asked for.

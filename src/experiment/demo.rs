@@ -2,16 +2,17 @@
 //! example of \[000\]: a dynamic start, lost samples (one long loss), a real step of the velocity while no sample came
 //! in, isolated outliers and patches. The truth column marks the outliers of the velocity.
 
-use std::fmt::Write as _;
-
+use super::record::{Record, Signal, Wild};
 use super::{Experiment, Random};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment = Experiment {
     id: "demo",
     help: "the built-in record: velocity and altitude with lost samples, a step, isolated outliers and patches",
-    csv,
+    source: "after [000]",
+    record,
     seed: 19_285,
+    reproduction: None,
 };
 
 /// Rows before some are lost.
@@ -54,12 +55,12 @@ fn wild(random: &mut Random) -> Vec<f64> {
     error
 }
 
-fn csv(seed: u64) -> String {
+fn record(seed: u64) -> Record {
     let mut random = Random::new(seed);
     let error = wild(&mut random);
     let altitude_error: Vec<usize> = (0..12).map(|_| random.whole(100, SAMPLES - 40)).collect();
     let lost: Vec<usize> = (0..25).map(|_| random.whole(10, SAMPLES - 10)).collect();
-    let mut text = String::from("t_s,vx_mps,alt_m,vx_truth_outlier\n");
+    let (mut t_s, mut vx_mps, mut alt_m, mut marks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut velocity, mut altitude) = (0.0, 120.0);
     for (i, &error) in error.iter().enumerate() {
         #[expect(clippy::cast_precision_loss, reason = "a few thousand seconds")]
@@ -75,9 +76,14 @@ fn csv(seed: u64) -> String {
         if LOSS.contains(&i) || lost.contains(&i) {
             continue;
         }
-        let _ = writeln!(text, "{t:.1},{vx:.2},{alt:.1},{}", u8::from(error != 0.0));
+        t_s.push(t);
+        vx_mps.push(vx);
+        alt_m.push(alt);
+        // Which of them are alone and which form a patch is nobody's question here.
+        marks.push((error != 0.0).then_some(Wild::Isolated));
     }
-    text
+    let signals = vec![Signal::new("vx_mps", 2, vx_mps), Signal::new("alt_m", 1, alt_m)];
+    Record { time: Signal::new("t_s", 1, t_s), signals, wild: marks, truth: "vx_truth_outlier" }
 }
 
 #[cfg(test)]
@@ -91,7 +97,7 @@ mod tests {
             panic!("the demonstration record is built in");
         };
         assert!(
-            bytes.as_ref() == csv(EXPERIMENT.seed).as_bytes(),
+            bytes.as_ref() == EXPERIMENT.csv(EXPERIMENT.seed, 1).as_bytes(),
             "write it again: cargo run -- simulate demo > data/demo.csv"
         );
     }

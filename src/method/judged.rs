@@ -114,14 +114,15 @@ impl Judged {
 
     /// Appends the judgement of the next segment of the same channel.
     pub fn append(&mut self, mut next: Self) {
-        let offset = self.verdict.len();
+        let (offset, added) = (self.verdict.len(), next.verdict.len());
         self.verdict.append(&mut next.verdict);
         self.expected.append(&mut next.expected);
         self.tolerance.append(&mut next.tolerance);
-        self.scale.append(&mut next.scale);
-        self.directions.append(&mut next.directions);
-        self.repair_code.append(&mut next.repair_code);
-        self.own.append(&mut next.own);
+        let lengths = (offset, added);
+        join(&mut self.scale, next.scale, lengths, f64::NAN);
+        join(&mut self.directions, next.directions, lengths, Directions { forward: None, backward: None });
+        join(&mut self.repair_code, next.repair_code, lengths, [0, 0]);
+        join(&mut self.own, next.own, lengths, f64::NAN);
         self.restarts.extend(next.restarts.into_iter().map(|r| Restart { at: r.at + offset, ..r }));
         for warning in next.warnings {
             if !self.warnings.contains(&warning) {
@@ -129,6 +130,18 @@ impl Judged {
             }
         }
     }
+}
+
+/// Appends what a segment has to say where a method says it only of some segments: of `added` samples after the
+/// `offset` that are there. Where one side has nothing, `nothing` stands for each of its samples, so that the entries
+/// stay with their samples.
+fn join<T: Clone>(all: &mut Vec<T>, mut next: Vec<T>, (offset, added): (usize, usize), nothing: T) {
+    if all.is_empty() && next.is_empty() {
+        return;
+    }
+    all.resize(offset, nothing.clone());
+    all.append(&mut next);
+    all.resize(offset + added, nothing);
 }
 
 fn part<T: Clone>(all: &[T], range: &Range<usize>) -> Vec<T> {

@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use crate::error::{Error, Result};
 use crate::method::Way;
 use crate::param::{Settings, Value};
-use crate::score::Score;
+use crate::score::{FinalError, Scores, final_error};
 use crate::session::{Analysed, Counts, Session};
 use crate::track::Track;
 
@@ -55,7 +56,10 @@ pub struct ChannelSummary {
     pub warnings: Vec<String>,
     /// Against the truth, where it is known.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub score: Option<Score>,
+    pub score: Option<Scores>,
+    /// Against the outlier-free column, where one is named.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub final_error: Option<FinalError>,
 }
 
 /// A model that was lost and started again.
@@ -92,7 +96,8 @@ impl Summary {
                 segments: detection.segments.len(),
                 restarts: restarts.collect(),
                 warnings,
-                score: track.truth.as_ref().map(|truth| Score::of(outcome, &series, truth)),
+                score: track.truth_for(&plan.channel).map(|truth| Scores::of(outcome, &series, truth)),
+                final_error: None,
             }
         });
         Self {
@@ -105,6 +110,26 @@ impl Summary {
             differs: None,
             channels: channels.collect(),
         }
+    }
+
+    /// Compares the repaired first channel with `reference`, a column of the record that holds its outlier-free
+    /// values.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] when no such column was loaded.
+    pub fn compare_with(&mut self, track: &Track, analysed: &Analysed, reference: &str) -> Result<()> {
+        let Some(column) = track.channel(reference) else {
+            return Err(Error::usage(
+                format!("{reference}: there is no such numeric column for the reference"),
+                "name the column of the outlier-free values, as the header has it",
+            ));
+        };
+        if let (Some(summary), Some((index, samples, outcome))) = (self.channels.first_mut(), analysed.channels.first())
+        {
+            let series = samples.series(&track.channels[*index], &track.time);
+            summary.final_error = Some(final_error(outcome, &series, &column.values));
+        }
+        Ok(())
     }
 
     /// A few lines for people.
@@ -130,9 +155,12 @@ impl Summary {
                 }
             }
             let _ = writeln!(out, " of {} samples in {} segments", n.present, c.segments);
-            if let Some(s) = c.score {
-                let rate = s.rejection_rate.map_or(String::new(), |r| format!(", rejection rate {:.1} %", 100.0 * r));
-                let _ = writeln!(out, "  against the truth: {} missed, {} false{rate}", s.missed, s.false_alarms);
+            if let Some(s) = &c.score {
+                let _ = writeln!(out, "  against the truth: {}", score_line(s));
+            }
+            if let Some(FinalError { rms: Some(rms), samples, removed }) = c.final_error {
+                let _ = write!(out, "  final error {rms:.6} over {samples} samples with a value");
+                let _ = writeln!(out, " ({removed} outliers removed)");
             }
             c.warnings.iter().for_each(|w| {
                 let _ = writeln!(out, "  note: {w}");
@@ -143,6 +171,29 @@ impl Summary {
         }
         out
     }
+}
+
+fn score_line(s: &Scores) -> String {
+    let mut line = format!("{} missed, {} false", s.samples.missed, s.samples.false_alarms);
+    if let Some(rate) = s.recall {
+        let _ = write!(line, ", rejection rate {:.1} %", 100.0 * rate);
+    }
+    if let Some(precision) = s.samples.precision {
+        let _ = write!(line, ", precision {:.1} %", 100.0 * precision);
+    }
+    for (part, what) in [(s.isolated, "isolated"), (s.patches, "patches")] {
+        if part.events > 0 {
+            let _ = write!(
+                line,
+                "; {what}: {} of {} samples, {} of {} found",
+                part.hits, part.samples, part.found, part.events
+            );
+        }
+    }
+    if s.events.false_alarms > 0 {
+        let _ = write!(line, "; {} false events", s.events.false_alarms);
+    }
+    line
 }
 
 fn json_settings(settings: &Settings) -> serde_json::Map<String, serde_json::Value> {

@@ -73,6 +73,7 @@ pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
         rows: body.rows,
         time: time_axis(&head, timing.as_ref(), body.rows),
         truth: truth_of(&columns, &roles, &body, &path)?,
+        truth_told: roles.truth.is_some(),
         channels: channels_of(&columns, &roles, &mut body, &path)?,
         faults: cell_faults(&columns, &roles, &body),
         columns,

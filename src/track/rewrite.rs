@@ -41,7 +41,7 @@ pub struct NewRow {
 }
 
 /// What is written where an empty cell would be no cell: between blanks, and in a row that would be empty.
-const NO_VALUE: &str = "NaN";
+pub(super) const NO_VALUE: &str = "NaN";
 
 /// Writes the input of `track` again with `changes`: same columns, rows, order, quotes, padding, line ends, comments,
 /// byte order mark and encoding (unpacked, if it is gzipped). A row too short for a changed cell is filled up to it.
@@ -78,18 +78,18 @@ pub fn rewrite(track: &Track, changes: &Changes, out: &mut dyn Write) -> Result<
 }
 
 /// Writes text in the encoding of the file.
-struct Pen<'a> {
-    out: &'a mut dyn Write,
-    encoding: Encoding,
-    track: &'a Track,
+pub(super) struct Pen<'a> {
+    pub(super) out: &'a mut dyn Write,
+    pub(super) encoding: Encoding,
+    pub(super) track: &'a Track,
 }
 
 impl Pen<'_> {
-    fn raw(&mut self, bytes: &[u8]) -> Result<()> {
+    pub(super) fn raw(&mut self, bytes: &[u8]) -> Result<()> {
         self.out.write_all(bytes).map_err(Error::io("write the output of", path_of(&self.track.source)))
     }
 
-    fn text(&mut self, bytes: &[u8]) -> Result<()> {
+    pub(super) fn text(&mut self, bytes: &[u8]) -> Result<()> {
         let Encoding::Utf16 { big_endian } = self.encoding else { return self.raw(bytes) };
         let text = String::from_utf8_lossy(bytes);
         let mut buffer = Vec::with_capacity(bytes.len() * 2);
@@ -222,7 +222,7 @@ impl<'a> Editor<'a> {
 }
 
 /// `record` with the text of some cells replaced; quotes stay, and so does the width of cells padded with blanks.
-fn patched(record: &[u8], spans: &[Span], layout: Layout, edits: &[(usize, String)]) -> Vec<u8> {
+pub(super) fn patched(record: &[u8], spans: &[Span], layout: Layout, edits: &[(usize, String)]) -> Vec<u8> {
     let mut line = Vec::with_capacity(record.len() + 16 * edits.len());
     let mut done = 0;
     let mut count = spans.len();

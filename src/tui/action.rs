@@ -49,6 +49,7 @@ pub enum Action {
     TypeValue,
     DefaultValue,
     Preset,
+    Suggested,
     NextFlag,
     PreviousFlag,
     NextUnreviewed,

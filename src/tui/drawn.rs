@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::plot::{Flag, FlagState, Pyramid, Span};
 use crate::method::Verdict;
+use crate::param::Value;
 use crate::review::Ruling;
 use crate::session::{Mark, Outcome};
 use crate::track::Series;
@@ -17,7 +18,10 @@ pub struct Drawn {
     pub hidden: Vec<bool>,
     /// Extremes of the kept samples.
     pub kept: Pyramid,
-    /// Extremes of residual / tolerance.
+    /// The residual in the units of the panel at which a sample is flagged: the multiplier of the scale where the
+    /// method has one, and the residual is in scales; otherwise 1, and it is in tolerances.
+    pub threshold: f64,
+    /// Extremes of the residual in the units of the panel.
     pub ratios: Pyramid,
     /// Extremes of the expected value.
     pub expected: Pyramid,
@@ -40,7 +44,9 @@ impl Drawn {
         outcome.outliers.iter().for_each(|&i| hidden[i] = true);
         let positions = outcome.marks.iter().map(|m| m.position).collect();
         let empty = Pyramid::default;
+        let threshold = multiplier(&outcome).unwrap_or(1.0);
         let mut drawn = Self {
+            threshold,
             outcome: Arc::new(outcome),
             hidden,
             kept: empty(),
@@ -55,7 +61,7 @@ impl Drawn {
         let ((kept, ratios), ((expected, band), (repaired, after))) = rayon::join(
             || {
                 let kept = Pyramid::build(&series.y, |i| of.hidden[i]);
-                let ratios = Pyramid::build_spans(n, |i| ratio(&of.outcome, series, i).map_or(Span::EMPTY, Span::at));
+                let ratios = Pyramid::build_spans(n, |i| of.residual(series, i).map_or(Span::EMPTY, Span::at));
                 (kept, ratios)
             },
             || {
@@ -113,6 +119,18 @@ impl Drawn {
         ratio(&self.outcome, series, position)
     }
 
+    /// Residual of the sample at `position` in the units of the panel, signed; none without a tolerance.
+    #[must_use]
+    pub fn residual(&self, series: &Series<'_>, position: usize) -> Option<f64> {
+        ratio(&self.outcome, series, position).map(|ratio| ratio * self.threshold)
+    }
+
+    /// True when the residual is in scales, false when it is in tolerances.
+    #[must_use]
+    pub fn in_scales(&self) -> bool {
+        multiplier(&self.outcome).is_some()
+    }
+
     /// The flags, with the state that the decisions give them.
     #[must_use]
     pub fn flags(&self, series: &Series<'_>) -> Vec<Flag> {
@@ -122,6 +140,15 @@ impl Drawn {
         };
         self.outcome.marks.iter().filter_map(of).collect()
     }
+}
+
+/// The multiplier of the scale, where the settings have one that matters.
+fn multiplier(outcome: &Outcome) -> Option<f64> {
+    let settings = &outcome.detection.setup.settings;
+    settings.mattering().find_map(|(p, v)| match (p.key, v) {
+        ("k" | "c", Value::Real(x)) => Some(x),
+        _ => None,
+    })
 }
 
 fn span(value: Option<f64>) -> Span {

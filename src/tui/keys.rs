@@ -111,6 +111,7 @@ pub static KEYMAP: &[Binding] = {
         row(View, &[","], A::StepDown, "active parameter one step down", "step"),
         row(View, &["."], A::StepUp, "active parameter one step up", ""),
         row(View, &[";"], A::NextKnob, "make the next parameter the active one", ""),
+        row(View, &["f"], A::Suggested, "take the threshold that the record itself suggests", ""),
         row(View, &["i"], A::Preset, "all parameters to the paper's values, or back to the defaults", ""),
         row(Parameters, &["down", "j"], A::NextKnob, "next parameter", "choose"),
         row(Parameters, &["up", "k"], A::PreviousKnob, "previous parameter", ""),
@@ -274,6 +275,7 @@ mod tests {
                     | A::StepDownFar
                     | A::DefaultValue
                     | A::Preset
+                    | A::Suggested
                     | A::Accept
                     | A::Reject
                     | A::Toggle

@@ -12,7 +12,7 @@ pub const LEAST: (u16, u16) = (40, 10);
 /// From this width on, parameters and queue have a column of their own.
 const WIDE: u16 = 110;
 /// The width of that column, and of the drawer that takes its place on narrower screens.
-const SIDE: u16 = 36;
+const SIDE: u16 = 38;
 
 /// Where each panel lies; none for one that has no room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -80,7 +80,7 @@ fn wide(whole: Rect) -> Areas {
     // One row of air between the plots and the side.
     column.x += 1;
     column.width -= 1;
-    let parameters = top(&mut column, (side.height / 2).clamp(12, 20));
+    let parameters = top(&mut column, (side.height * 3 / 5).clamp(12, 24));
     let overview = top(&mut rest, if whole.height >= 36 { 5 } else { 4 });
     let card = bottom(&mut rest, 6);
     let third = rest.height / 3;
@@ -109,7 +109,7 @@ fn compact(whole: Rect, focus: Panel) -> Areas {
     let knobs = (!small).then(|| bottom(&mut rest, 1));
     let card = bottom(&mut rest, if small { 2 } else { 3 });
     let quarter = rest.height / 4;
-    let residual = (whole.height >= 24 && !small).then(|| bottom(&mut rest, quarter.clamp(4, 9)));
+    let residual = (whole.height >= 24 && !small).then(|| bottom(&mut rest, quarter.clamp(5, 9)));
     // The drawer lies over the plots while one of its panels has the keyboard.
     let drawer = Rect {
         x: whole.width - SIDE.min(whole.width),

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use ratatui::crossterm::event::KeyEvent;
 
+use super::advice::Advice;
 use super::drawn::Drawn;
 use crate::error::{Error, Result};
 
@@ -25,6 +26,15 @@ pub enum Message {
         /// The result, ready to draw.
         result: Result<Box<Drawn>>,
     },
+    /// The counts along the multiplier of a channel are known.
+    Advised {
+        /// Index of the plan.
+        plan: usize,
+        /// The counts, and what they were found for.
+        advice: Box<Advice>,
+    },
+    /// There is nothing to sweep under the settings as they were.
+    NoAdvice,
     /// A file was written, or not.
     Written {
         /// What it was.
@@ -71,6 +81,8 @@ pub enum Fate {
 pub enum Effect {
     /// Judge the channel of this plan under the session as it is now.
     Analyse(usize),
+    /// Find the counts along the multiplier of the channel of this plan, when nothing else is to do.
+    Advise(usize),
     /// Abandon the running judgement.
     Cancel,
     /// Write the session.

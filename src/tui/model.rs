@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use tui_input::Input;
 
 use super::action::Panel;
+use super::advice::Advice;
 use super::drawn::Drawn;
 use super::journal::Found;
 use super::plot::{Axis, Flags, Glyphs, View};
@@ -85,6 +86,8 @@ pub struct ChannelState {
     pub flags: Flags,
     /// Positions of the flags in the order of the queue.
     pub queue: Vec<u32>,
+    /// The counts along the multiplier, for the setup they were found for.
+    pub advice: Option<Advice>,
     /// True when the result is not that of the session as it is now.
     pub stale: bool,
     /// Why there is no result.
@@ -329,6 +332,12 @@ impl Model {
         knobs.get(self.state().knob).or(knobs.last()).copied().unwrap_or(Knob::Method)
     }
 
+    /// The advice on the multiplier of the channel on the screen, if it is there and holds for the setup as it is now.
+    #[must_use]
+    pub fn advice(&self) -> Option<&Advice> {
+        self.state().advice.as_ref().filter(|advice| advice.is_for(&self.plan().setup))
+    }
+
     /// The session as it is saved: with the channels that somebody worked on, and the one on the screen.
     #[must_use]
     pub fn document(&self) -> Session {
@@ -371,6 +380,7 @@ impl ChannelState {
             drawn: None,
             flags: Flags::default(),
             queue: Vec::new(),
+            advice: None,
             stale: true,
             error: None,
             touched,

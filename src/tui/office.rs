@@ -132,7 +132,9 @@ fn export(track: &Track, session: &Session, errand: &Errand) -> Result<String> {
     let changes = analysed.changes(track);
     put(track, errand, |w| write_cleaned(track, &changes, w).map(|_| ()))?;
     let path = errand.path.display();
-    Ok(format!("wrote {path}: {} cells changed, the others byte for byte as they were", changes.cells.len()))
+    let cells = changes.cells.len();
+    let rows = if changes.rows.is_empty() { String::new() } else { format!(", {} rows added", changes.rows.len()) };
+    Ok(format!("wrote {path}: {cells} cell{} changed{rows}", if cells == 1 { "" } else { "s" }))
 }
 
 fn put(track: &Track, errand: &Errand, fill: impl FnOnce(&mut dyn std::io::Write) -> Result<()>) -> Result<()> {

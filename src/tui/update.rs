@@ -45,10 +45,12 @@ pub fn update(model: &mut Model, message: Message) -> Vec<Effect> {
             model.size = (width, height);
             Vec::new()
         }
-        Message::Analysed { generation, plan, result } => {
-            analysed(model, generation, plan, result);
+        Message::Analysed { generation, plan, result } => analysed(model, generation, plan, result),
+        Message::Advised { plan, advice } => {
+            model.channels[plan].advice = Some(*advice);
             Vec::new()
         }
+        Message::NoAdvice => Vec::new(),
         Message::Written { what, path, result } => files::written(model, what, &path, result),
         Message::Unjournalled(e) => {
             let text = e.to_string().replace("\n  ", "; ");
@@ -100,6 +102,7 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::TypeValue => tune::type_value(model),
         Action::DefaultValue => tune::to_default(model),
         Action::Preset => tune::other_preset(model),
+        Action::Suggested => tune::take_suggestion(model),
         Action::NextChannel => {
             let next = (model.shown + 1) % model.channels.len();
             show(model, next)
@@ -240,9 +243,14 @@ fn describe(model: &Model, edit: &Edit) -> String {
     }
 }
 
-fn analysed(model: &mut Model, generation: u64, plan: usize, result: crate::error::Result<Box<super::drawn::Drawn>>) {
+fn analysed(
+    model: &mut Model,
+    generation: u64,
+    plan: usize,
+    result: crate::error::Result<Box<super::drawn::Drawn>>,
+) -> Vec<Effect> {
     if model.awaited != Some(generation) {
-        return;
+        return Vec::new();
     }
     model.awaited = None;
     match result {
@@ -262,6 +270,7 @@ fn analysed(model: &mut Model, generation: u64, plan: usize, result: crate::erro
             model.say(Tone::Error, text);
         }
     }
+    tune::advise(model, plan)
 }
 
 /// Decisions of a session that was opened were made under the method as it is now.

@@ -55,17 +55,30 @@ fn draw_panels(model: &Model, area: Rect, buffer: &mut Buffer) {
     if let Some(area) = areas.knobs {
         parameters::one_line(model, area, buffer);
     }
+    // Where there is no column for them, they are a drawer over the plots.
+    let place =
+        |area: Rect, buffer: &mut Buffer| if areas.knobs.is_some() { drawer(model, area, buffer) } else { area };
     if let Some(area) = areas.parameters {
-        parameters::draw(model, area, buffer);
+        parameters::draw(model, place(area, buffer), buffer);
     }
     if let Some(area) = areas.queue {
-        queue::draw(model, area, buffer);
+        queue::draw(model, place(area, buffer), buffer);
     }
     toast(model, areas.toast, buffer);
     footer::draw(model, areas.footer, buffer);
     if !matches!(model.overlay, Overlay::None) {
         overlay::draw(model, area, buffer);
     }
+}
+
+/// Sets a drawer off from what lies below it; gives its inside.
+fn drawer(model: &Model, area: Rect, buffer: &mut Buffer) -> Rect {
+    clear(area, buffer);
+    let edge = if model.glyphs == super::plot::Glyphs::Unicode { '│' } else { '|' };
+    for y in area.top()..area.bottom() {
+        buffer[(area.x, y)].set_char(edge).set_style(reset(model.theme.focus));
+    }
+    Rect { x: area.x + 2, width: area.width.saturating_sub(2), ..area }
 }
 
 fn too_small(model: &Model, area: Rect, buffer: &mut Buffer) {
@@ -113,7 +126,15 @@ fn heading(model: &Model, panel: Panel, words: &[Span<'_>], area: Rect, buffer: 
         Span::styled(format!("{} {}", panel.digit(), panel.name()), style),
         Span::raw(" "),
     ];
-    spans.extend(words.iter().cloned());
+    // Words that do not fit are left out whole: a number cut short reads as another number.
+    let mut room = usize::from(area.width).saturating_sub(spans.iter().map(Span::width).sum::<usize>() + 1);
+    for word in words {
+        let width = word.content.trim_end().chars().count();
+        if width <= room {
+            room = room.saturating_sub(word.width());
+            spans.push(word.clone());
+        }
+    }
     rule(model, spans, area, buffer);
     Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
 }
@@ -180,6 +201,13 @@ fn fit(text: &str, width: usize) -> String {
         out.push('…');
     }
     out
+}
+
+/// True when times of day alone would not tell the samples of the record apart.
+fn several_days(model: &Model) -> bool {
+    let series = model.series();
+    let date = |t: Option<&f64>| t.and_then(|t| model.track.time.date(*t));
+    date(series.t.first()) != date(series.t.last())
 }
 
 /// A whole number with thousands set apart.

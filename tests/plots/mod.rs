@@ -123,8 +123,17 @@ pub fn all_widgets(
     look(buffer);
     FlagRail { columns, theme, glyphs, label: "flags", cursor: Some(at) }.render(area, buffer);
     look(buffer);
-    ResidualPlot { columns, ratio: &ratio, pyramid: &pyramid, top: 3.0, theme, glyphs, cursor: Some(at) }
-        .render(area, buffer);
+    ResidualPlot {
+        columns,
+        ratio: &ratio,
+        pyramid: &pyramid,
+        threshold: 1.0,
+        top: 3.0,
+        theme,
+        glyphs,
+        cursor: Some(at),
+    }
+    .render(area, buffer);
     look(buffer);
     let viewport = View { from: grid.view.from, to: grid.view.to / 2.0 };
     Overview { columns, viewport, theme, glyphs }.render(area, buffer);

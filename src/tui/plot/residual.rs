@@ -1,4 +1,5 @@
-//! The residual in units of the tolerance: each sample where there is room, else the worst of each column.
+//! The residual in units of the scale or the tolerance: each sample where there is room, else the worst of each
+//! column.
 
 use std::ops::Range;
 
@@ -19,16 +20,19 @@ use crate::tui::theme::Theme;
 /// Samples per column of cells up to which each is drawn with its sign.
 const SIGNED_UP_TO: usize = 4;
 
-/// The residual widget: the ratio (raw value minus expected value) / tolerance, with a dotted line where it is 1.
-/// Samples without a tolerance leave a gap.
+/// The residual widget: the ratio (raw value minus expected value) / unit, with a dotted line at the threshold from
+/// which samples are flagged. Where the unit is the scale that the threshold multiplies, turning the threshold moves
+/// the line and leaves the rest. Samples without a ratio leave a gap.
 #[derive(Clone)]
 pub struct ResidualPlot<'a> {
     /// Tells which samples each column holds; the same that the trace above is drawn from.
     pub columns: &'a Columns,
-    /// Signed ratio of a position; none without a tolerance.
+    /// Signed ratio of a position; none where there is nothing to compare with.
     pub ratio: &'a dyn Fn(usize) -> Option<f64>,
     /// The extremes of the ratio, from [`ResidualPlot::pyramid`].
     pub pyramid: &'a Pyramid,
+    /// The |ratio| from which a sample is flagged.
+    pub threshold: f64,
     /// The ratio at the upper edge; larger ones are cut and marked.
     pub top: f64,
     /// Styles.
@@ -40,8 +44,14 @@ pub struct ResidualPlot<'a> {
 }
 
 impl ResidualPlot<'_> {
-    /// A good ratio for the upper edge: the threshold is a third of the way up.
-    pub const TOP: f64 = 3.0;
+    /// A good ratio for the upper edge: the threshold lies between a quarter and half of the way up, and the edge
+    /// stays put while the threshold moves within a factor of two.
+    #[must_use]
+    pub fn top_for(threshold: f64) -> f64 {
+        let octave = (threshold / 2.5).log2().floor();
+        let top = 10.0 * octave.exp2();
+        if top.is_finite() && top > 0.0 { top } else { 10.0 }
+    }
 
     /// The extremes of `len` ratios.
     #[must_use]
@@ -55,8 +65,13 @@ impl ResidualPlot<'_> {
         self.columns.in_view().len() <= SIGNED_UP_TO * usize::from(self.columns.grid().width)
     }
 
+    /// A tie reaches the threshold.
+    fn reaches(&self, ratio: f64) -> bool {
+        ratio.abs() >= self.threshold * (1.0 - 1e-9)
+    }
+
     fn top(&self) -> f64 {
-        if self.top > 1.0 && self.top < 1e6 { self.top } else { Self::TOP }
+        if self.top > 0.0 && self.top.is_finite() { self.top } else { Self::top_for(self.threshold) }
     }
 
     /// The largest |ratio| of some positions; none when none has a tolerance.
@@ -72,20 +87,20 @@ impl ResidualPlot<'_> {
             paint.margin(row, "", self.glyphs.vertical(), self.theme.dim);
         }
         let bottom = if self.is_signed() { -top } else { 0.0 };
-        for value in [bottom, top, 0.0, 1.0] {
+        for value in [bottom, top, 0.0, self.threshold] {
             if let Some(row) = scale.row(value) {
-                paint.margin(row, &format!("{value:.1}"), self.glyphs.tick(), self.theme.dim);
+                paint.margin(row, &label(value), self.glyphs.tick(), self.theme.dim);
             }
         }
     }
 
     fn bars(&self, paint: &mut Paint<'_>, scale: YScale) {
         let height = paint.height();
-        let threshold = scale.row(1.0);
+        let threshold = scale.row(self.threshold);
         let cursor = self.cursor.and_then(|position| self.columns.column_of(position));
         for column in 0..paint.width().min(self.columns.grid().width) {
             let worst = self.worst(self.columns.positions(column));
-            let over = worst.is_some_and(|worst| worst > 1.0);
+            let over = worst.is_some_and(|worst| self.reaches(worst));
             let beyond = worst.is_some_and(|worst| worst > self.top());
             // The part of the height that the bar takes, in eighths of a cell; a bar of nothing still shows that
             // there was something to judge.
@@ -122,7 +137,7 @@ impl ResidualPlot<'_> {
                 match scale.row(ratio) {
                     Some(row) => {
                         dots.set(dot_column as i32, scale.dot_row(ratio));
-                        over[usize::from(row) * usize::from(width) + column] |= ratio.abs() > 1.0;
+                        over[usize::from(row) * usize::from(width) + column] |= self.reaches(ratio);
                     }
                     None => {
                         beyond[column].0 |= ratio > 0.0;
@@ -132,7 +147,7 @@ impl ResidualPlot<'_> {
             }
         }
         let cursor = self.cursor.and_then(|position| self.columns.column_of(position));
-        let lines = [scale.row(1.0), scale.row(-1.0)];
+        let lines = [scale.row(self.threshold), scale.row(-self.threshold)];
         for column in 0..width {
             let (above, below) = beyond[usize::from(column)];
             for row in 0..height {
@@ -159,6 +174,11 @@ impl ResidualPlot<'_> {
     fn cursor(&self, glyph: char, style: Style, on_cursor: bool) -> (char, Style) {
         if on_cursor && glyph == ' ' { (self.glyphs.vertical(), self.theme.cursor_line) } else { (glyph, style) }
     }
+}
+
+/// A ratio in few columns.
+fn label(value: f64) -> String {
+    if value.abs() < 1000.0 { format!("{value:.1}") } else { format!("{value:.0}") }
 }
 
 fn span(ratio: Option<f64>) -> Span {

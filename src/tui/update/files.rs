@@ -101,7 +101,7 @@ pub(super) fn queue(model: &mut Model, plan: usize) {
     match model.sort {
         Sort::Time => {}
         Sort::Ratio => {
-            let ratio = |p: &u32| drawn.ratio(&series, *p as usize).map_or(0.0, f64::abs);
+            let ratio = |p: &u32| drawn.residual(&series, *p as usize).map_or(0.0, f64::abs);
             queue.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
         }
         Sort::State => {

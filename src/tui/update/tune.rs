@@ -1,10 +1,12 @@
 //! Turning the knobs: method, parameters, repair.
 
+use super::super::advice::BY_ITSELF;
 use super::super::message::Effect;
 use super::super::model::{Knob, Model, PromptKind, Tone};
 use super::{list_of, picker, prompt, set_up};
 use crate::method::{METHODS, Method};
 use crate::param::{Settings, Value};
+use crate::session::sweep::multiplier;
 use crate::session::{Preset, Setup};
 
 /// The single knob by which two setups differ, with its values; none when they differ in more, or in the method.
@@ -184,4 +186,45 @@ pub(super) fn set_repair(model: &mut Model, id: &str) -> Result<Vec<Effect>, Str
     let effects = set_up(model, after);
     model.say(Tone::Done, format!("repair {id} · u undo"));
     Ok(effects)
+}
+
+/// Asks for the counts along the multiplier where they are not known and cheap enough to be found unasked.
+pub(super) fn advise(model: &Model, plan: usize) -> Vec<Effect> {
+    let state = &model.channels[plan];
+    let setup = &model.session.plans[plan].setup;
+    let known = state.advice.as_ref().is_some_and(|advice| advice.is_for(setup));
+    let n = state.drawn.as_ref().map_or(0, |d| d.hidden.len());
+    let wanted = !known && !state.stale && (1..=BY_ITSELF).contains(&n) && multiplier(setup).is_ok();
+    if wanted { vec![Effect::Advise(plan)] } else { Vec::new() }
+}
+
+/// Sets the multiplier to the middle of the longest plateau of the counts.
+pub(super) fn take_suggestion(model: &mut Model) -> Vec<Effect> {
+    let plan = model.shown;
+    let Some(sweep) = model.advice().map(|a| a.sweep.clone()) else {
+        return match multiplier(&model.plan().setup) {
+            Ok(param) => {
+                model.say(Tone::Done, format!("looking along {} for a threshold; f again takes it", param.key));
+                vec![Effect::Advise(plan)]
+            }
+            Err(e) => {
+                model.say(Tone::Warning, e.to_string().replace("\n  ", "; "));
+                Vec::new()
+            }
+        };
+    };
+    match (sweep.suggestion, sweep.suggested()) {
+        (Some(value), Some(plateau)) => {
+            let (least, most, from, to) = (plateau.least, plateau.most, plateau.from, plateau.to);
+            let effects = set_key(model, sweep.key, &value.to_string()).unwrap_or_default();
+            let count = if least == most { least.to_string() } else { format!("{least} to {most}") };
+            let text = format!("{} {value}: {count} flagged from {from:.1} to {to:.1} · u undo", sweep.key);
+            model.say(Tone::Done, text);
+            effects
+        }
+        _ => {
+            model.say(Tone::Warning, "no clear gap between noise and wild points: no threshold suggests itself");
+            Vec::new()
+        }
+    }
 }

@@ -8,10 +8,10 @@ use ratatui::widgets::Widget;
 use super::super::action::Panel;
 use super::super::drawn::{Drawn, state};
 use super::super::model::Model;
-use super::super::plot::FlagState;
+use super::super::plot::{FlagState, Glyphs};
 use super::super::update::mark_at;
 use super::queue::ratio_text;
-use super::{clear, heading, short};
+use super::{clear, heading, several_days, short};
 use crate::method::{Direction, Verdict};
 use crate::session::Mark;
 use crate::track::{Series, printable};
@@ -30,7 +30,7 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     let narrow = area.width < 100;
     let lines = [
         measured(model, &series, cursor, narrow),
-        judged(model, &series, cursor, mark.as_ref()),
+        judged(model, &series, cursor, mark.as_ref(), narrow),
         neighbours(model, &series, cursor),
         remarks(model, &series, cursor, mark.as_ref()),
     ];
@@ -78,9 +78,12 @@ pub(super) fn state_word(state: FlagState) -> &'static str {
 fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Line<'static> {
     let theme = &model.theme;
     let full = model.track.time.full_label(series.t[i]);
-    // On a narrow screen the date has to go: the axis above is of the same day.
+    // On a narrow screen the date has to go, unless the record has several.
     let time = match (narrow, full.split_once(' ')) {
-        (true, Some((_, rest))) if model.track.time.date(0.0).is_some() => rest.trim_end_matches(" UTC").to_owned(),
+        (true, Some((_, rest))) if model.track.time.date(0.0).is_some() && !several_days(model) => {
+            rest.trim_end_matches(" UTC").to_owned()
+        }
+        (true, _) => full.trim_end_matches(" UTC").to_owned(),
         _ => full,
     };
     let mut spans = vec![
@@ -99,7 +102,7 @@ fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Line<
             _ => item("expected", "none".into()),
         }
         if let Some(h) = judged.tolerance.get(i).filter(|h| **h > 0.0) {
-            item("±", short(*h));
+            item(if model.glyphs == Glyphs::Unicode { "±" } else { "+-" }, short(*h));
         }
         if let Some(ratio) = drawn.ratio(series, i) {
             item("ratio", ratio_text(ratio));
@@ -109,16 +112,20 @@ fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Line<
 }
 
 /// What method and analyst say, and what will be written.
-fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> Line<'static> {
+fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>, narrow: bool) -> Line<'static> {
     let theme = &model.theme;
     let Some(drawn) = &model.state().drawn else { return Line::default() };
     let judged = &drawn.outcome.detection.judged;
     let verdict = judged.verdict.get(i).copied().unwrap_or(Verdict::Missing);
     let mut text = format!("  {} says {}", drawn.outcome.detection.setup.method.about().id, verdict.word());
     if let Some(d) = judged.directions.get(i) {
-        let both = [("forward", d.forward), ("backward", d.backward)];
-        let words: Vec<String> =
-            both.iter().filter_map(|(name, d)| d.map(|d| format!("{name} {}", Direction::word(d)))).collect();
+        let (forth, back) = if narrow { ("fwd", "bwd") } else { ("forward", "backward") };
+        let both = [(forth, d.forward), (back, d.backward)];
+        let words: Vec<String> = if d.forward == d.backward {
+            d.forward.map(|d| format!("both ways {}", Direction::word(d))).into_iter().collect()
+        } else {
+            both.iter().filter_map(|(name, d)| d.map(|d| format!("{name} {}", Direction::word(d)))).collect()
+        };
         if !words.is_empty() {
             text.push_str(&format!(": {}", words.join(", ")));
         }

@@ -19,7 +19,7 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
             KEYMAP
                 .iter()
                 .flat_map(|b| b.keys.iter().map(move |k| (k, b)))
-                .filter_map(|(k, b)| k.strip_prefix("g ").map(|rest| (format!("g{rest}"), b.help))),
+                .filter_map(|(k, b)| k.strip_prefix("g ").map(|rest| (format!("g{rest}"), in_few_words(b.help)))),
         );
     } else {
         left.extend(items(model));
@@ -47,6 +47,12 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
 fn push(model: &Model, spans: &mut Vec<Span<'static>>, (key, word): (String, &str)) {
     spans.push(Span::styled(key, model.theme.key));
     spans.push(Span::styled(if word.is_empty() { " ".to_owned() } else { format!(" {word}  ") }, model.theme.dim));
+}
+
+/// What a key after a prefix does, up to what all of them share.
+fn in_few_words(help: &'static str) -> &'static str {
+    let end = [" flags", " decisions", " sample"].iter().filter_map(|w| help.find(w)).min();
+    &help[..end.unwrap_or(help.len())]
 }
 
 /// Keys and their words, most wanted first.

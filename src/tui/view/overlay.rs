@@ -28,7 +28,9 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
 /// A box of at most this size in the middle of the screen, the footer left free; gives its inside.
 pub(super) fn popup(model: &Model, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
     let room = Rect { height: area.height.saturating_sub(1), ..area };
-    let (width, height) = (size.0.min(room.width), size.1.min(room.height));
+    // A few columns left over would show strips of what lies below.
+    let width = if size.0 + 8 >= room.width { room.width } else { size.0 };
+    let height = size.1.min(room.height);
     let place = Rect { x: room.x + (room.width - width) / 2, y: room.y + (room.height - height) / 2, width, height };
     clear(place, buffer);
     let block = Block::new()
@@ -52,10 +54,19 @@ const PLAIN: ratatui::symbols::border::Set<'static> = ratatui::symbols::border::
     horizontal_bottom: "-",
 };
 
-pub(super) fn rows(lines: Vec<Line<'_>>, from: usize, inside: Rect, buffer: &mut Buffer) {
+/// Lines from one on; where some are out of sight, the right edge says which way.
+pub(super) fn rows(model: &Model, lines: Vec<Line<'_>>, from: usize, inside: Rect, buffer: &mut Buffer) {
+    let below = lines.len() > from + usize::from(inside.height);
+    let marks = [(from > 0, inside.y, "↑ more"), (below, inside.bottom().saturating_sub(1), "↓ more")];
     for (row, line) in lines.into_iter().skip(from).take(usize::from(inside.height)).enumerate() {
         let row = u16::try_from(row).unwrap_or(u16::MAX);
         line.render(Rect { y: inside.y + row, height: 1, ..inside }, buffer);
+    }
+    for (shown, y, words) in marks {
+        if shown && inside.width > 8 && inside.height > 1 {
+            let place = Rect { x: inside.right() - 6, y, width: 6, height: 1 };
+            Line::styled(words, model.theme.warning).render(place, buffer);
+        }
     }
 }
 
@@ -116,7 +127,7 @@ fn help(model: &Model, filter: &Input, from: usize, area: Rect, buffer: &mut Buf
     let body = Rect { y: inside.y + head.height, height: inside.height - head.height, ..inside };
     let lines = help_lines(model, filter.value());
     let last = lines.len().saturating_sub(usize::from(body.height));
-    rows(lines, from.min(last), body, buffer);
+    rows(model, lines, from.min(last), body, buffer);
 }
 
 fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) {
@@ -153,7 +164,7 @@ fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) {
         lines.push(Line::styled("nothing fits", theme.dim));
     }
     let from = (choice_row + 1).saturating_sub(usize::from(body.height));
-    rows(lines, from, body, buffer);
+    rows(model, lines, from, body, buffer);
 }
 
 /// A prompt takes the line on which the program speaks, with what is wrong above it.
@@ -174,9 +185,15 @@ fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
     clear(row, buffer);
     typed(model, &before, &prompt.input).render(row, buffer);
     if let Some(error) = &prompt.error {
-        let row = Rect { y: area.bottom() - 3, height: 1, ..area };
-        clear(row, buffer);
-        Line::styled(format!(" {}", printable(error)), model.theme.error).render(row, buffer);
+        let width = usize::from(area.width).saturating_sub(2).max(1);
+        let lines = super::parameters::wrapped(&printable(error), width);
+        let most = usize::from(area.height).saturating_sub(2).min(4);
+        for (up, text) in lines.iter().take(most).rev().enumerate() {
+            let up = u16::try_from(up).unwrap_or(0);
+            let row = Rect { y: area.bottom() - 3 - up, height: 1, ..area };
+            clear(row, buffer);
+            Line::from(Span::styled(format!(" {text}"), model.theme.error)).render(row, buffer);
+        }
     }
 }
 
@@ -194,5 +211,5 @@ fn confirm(model: &Model, area: Rect, buffer: &mut Buffer) {
         key("d", "drop them and quit".into()),
         key("Esc", "stay".into()),
     ];
-    rows(lines, 0, inside, buffer);
+    rows(model, lines, 0, inside, buffer);
 }

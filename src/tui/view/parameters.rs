@@ -6,9 +6,12 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
+use super::super::advice::Advice;
+use super::super::drawn::Drawn;
 use super::super::model::{Knob, Model};
 use super::super::update::value_text;
-use super::{clear, fit, heading, thousands};
+use super::{clear, fit, heading, short, thousands};
+use crate::param::Value;
 use crate::track::printable;
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
@@ -17,15 +20,33 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     let theme = &model.theme;
     let knobs = model.knobs();
     let active = model.state().knob.min(knobs.len().saturating_sub(1));
-    let notes = notes(model, usize::from(body.width).saturating_sub(1));
-    // The last rows are for counts and warnings; the knobs come first, and scroll when they must.
     let height = usize::from(body.height);
-    let least = notes.len().min(height / 3);
-    let reserved = notes.len().min(height.saturating_sub(knobs.len())).max(least);
+    let blocks = notes(model, usize::from(body.width).saturating_sub(1));
+    // The first block (the counts) always shows; the others where they fit whole, once the knobs have their rows.
+    let least = if model.focus == Panel::Parameters { height * 3 / 5 } else { height * 9 / 20 };
+    let spare = height.saturating_sub(knobs.len()).max(least);
+    let mut lines: Vec<(String, bool)> = Vec::new();
+    for (index, block) in blocks.into_iter().enumerate() {
+        if index == 0 || lines.len() + block.len() <= spare {
+            lines.extend(block);
+        }
+    }
+    // Facts take what is left, and no knob its row.
+    for fact in model.plan().setup.method.notes(&model.plan().setup.settings) {
+        let block = wrapped(&fact, usize::from(body.width).saturating_sub(1));
+        if lines.len() + block.len() + knobs.len() <= height {
+            lines.extend(block.into_iter().map(|line| (line, false)));
+        }
+    }
+    lines.truncate(height.saturating_sub(4));
+    let reserved = lines.len();
     let room = height - reserved;
-    let from = (active + 1).saturating_sub(room);
+    // Knobs that do not fit scroll; the last row says how many are out of sight.
+    let cut = knobs.len() > room;
+    let visible = if cut { room.saturating_sub(1) } else { room };
+    let from = (active + 1).saturating_sub(visible);
     let setup = &model.plan().setup;
-    let shown: Vec<(usize, &Knob)> = knobs.iter().enumerate().skip(from).take(room).collect();
+    let shown: Vec<(usize, &Knob)> = knobs.iter().enumerate().skip(from).take(visible).collect();
     for (row, (index, knob)) in shown.into_iter().enumerate() {
         let value = printable(&value_text(setup, *knob));
         let changed = match knob {
@@ -53,7 +74,11 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         ]);
         put(line, row, body, buffer);
     }
-    for (i, (text, warn)) in notes.into_iter().take(reserved).enumerate() {
+    if cut {
+        let hidden = knobs.len() - visible;
+        put(Line::styled(format!("{:15}  {hidden} more, 3 and arrows", ""), theme.dim), visible, body, buffer);
+    }
+    for (i, (text, warn)) in lines.into_iter().enumerate() {
         let style = if warn { theme.warning } else { theme.dim };
         put(Line::styled(text, style), room + i, body, buffer);
     }
@@ -66,50 +91,93 @@ fn put(line: Line<'_>, row: usize, body: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Counts, the help of the active knob, and warnings, as rows of at most `width` columns; true for a warning.
-fn notes(model: &Model, width: usize) -> Vec<(String, bool)> {
-    let mut notes = Vec::new();
+/// Blocks of rows of at most `width` columns, the most wanted first: counts, the help of the active knob while the
+/// panel has the keyboard, warnings. True for a warning.
+fn notes(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
+    let mut blocks = Vec::new();
+    let block = |text: &str, warn: bool| wrapped(text, width).into_iter().map(|line| (line, warn)).collect::<Vec<_>>();
+    let setup = &model.plan().setup;
     if let Some(drawn) = &model.state().drawn {
-        let n = drawn.outcome.counts;
-        let share = if n.present > 0 {
-            #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-            let share = 100.0 * n.flagged as f64 / n.present as f64;
-            format!(" ({share:.2} %)")
-        } else {
-            String::new()
-        };
-        notes.push((String::new(), false));
-        notes.push((format!("flagged        {}{share}", thousands(n.flagged)), false));
-        notes.push((format!("isolated {}, patches {}", n.isolated, n.patches), false));
-        let mut rest = vec![format!("repaired {}, removed {}", n.repaired, n.removed)];
-        for (count, word) in [(n.suspects, "suspect"), (n.unchecked, "unchecked"), (n.filled, "filled")] {
-            if count > 0 {
-                rest.push(format!("{word} {}", thousands(count)));
-            }
-        }
-        notes.extend(wrapped(&rest.join(", "), width).into_iter().map(|line| (line, false)));
-        let detection = &drawn.outcome.detection;
-        if !detection.judged.restarts.is_empty() {
-            notes.push((format!("restarts       {}", detection.judged.restarts.len()), false));
-        }
-        let mut warnings = detection.setup.method.warnings(&detection.setup.settings);
-        warnings.extend(detection.judged.warnings.iter().cloned());
-        for warning in warnings {
-            notes.extend(wrapped(&warning, width).into_iter().map(|line| (line, true)));
-        }
+        blocks.push(counts(drawn, width));
     }
-    for note in model.plan().setup.method.notes(&model.plan().setup.settings) {
-        notes.extend(wrapped(&note, width).into_iter().map(|line| (line, false)));
+    let advice = model.advice().map(|advice| advice_rows(model, advice, width));
+    let about_it = model.advice().is_some_and(|advice| model.knob().name() == advice.sweep.key);
+    if about_it {
+        blocks.extend(advice.clone());
     }
     if model.focus == Panel::Parameters
         && let Knob::Detection(p) | Knob::Repair(p) = model.knob()
     {
-        notes.push((String::new(), false));
         let paper = p.paper.map_or(String::new(), |v| format!(", paper {v}"));
-        let text = format!("{} [{}], default {}{paper}", p.help, p.range(), p.default);
-        notes.extend(wrapped(&text, width).into_iter().map(|line| (line, false)));
+        let mut help = vec![(String::new(), false)];
+        help.extend(block(&format!("{} [{}], default {}{paper}", p.help, p.range(), p.default), false));
+        blocks.push(help);
     }
-    notes
+    if !about_it {
+        blocks.extend(advice);
+    }
+    let mut warnings = setup.method.warnings(&setup.settings);
+    if let Some(drawn) = model.state().drawn.as_ref().filter(|_| !model.state().stale) {
+        warnings.extend(drawn.outcome.detection.judged.warnings.iter().cloned());
+    }
+    blocks.extend(warnings.iter().map(|warning| block(warning, true)));
+    blocks
+}
+
+/// The counts along the multiplier as a small curve, and what it suggests. The mark under it is where the multiplier is.
+fn advice_rows(model: &Model, advice: &Advice, width: usize) -> Vec<(String, bool)> {
+    let sweep = &advice.sweep;
+    let columns = width.min(sweep.points.len()).max(1);
+    let at = |column: usize| &sweep.points[column * (sweep.points.len() - 1) / columns.max(2).saturating_sub(1)];
+    let most = sweep.points.iter().map(|p| p.flagged).max().unwrap_or(0);
+    // Counts span decades: the height is that of the logarithm.
+    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+    let height = |flagged: usize| {
+        let share = (flagged as f64 + 1.0).ln() / (most as f64 + 1.0).ln().max(f64::MIN_POSITIVE);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 8")]
+        let eighths = (share * 8.0).round() as u8;
+        if flagged == 0 { ' ' } else { model.glyphs.bar(eighths.clamp(1, 8)) }
+    };
+    let curve: String = (0..columns).map(|c| height(at(c).flagged)).collect();
+    let now = model.plan().setup.settings.get(sweep.key);
+    let now = now.and_then(|v| if let Value::Real(x) = v { Some(x) } else { None }).unwrap_or(0.0);
+    let mark = (0..columns).take_while(|c| at(*c).value <= now).count().saturating_sub(1);
+    let ends = [sweep.points.first(), sweep.points.last()].map(|p| p.map_or(0.0, |p| p.value));
+    let scale = format!("{:>mark$}^", "");
+    let words = match (sweep.suggestion, sweep.suggested()) {
+        (Some(value), Some(p)) => {
+            let count = if p.least == p.most { p.most.to_string() } else { format!("{} to {}", p.least, p.most) };
+            format!("f takes {} {value}: {count} flagged from {} to {}", sweep.key, short(p.from), short(p.to))
+        }
+        _ => "no clear gap between noise and wild points".to_owned(),
+    };
+    let head = format!("flagged for {} from {} to {}", sweep.key, ends[0], ends[1]);
+    let mut rows = vec![(head, false), (curve, false), (scale, false)];
+    rows.extend(wrapped(&words, width).into_iter().map(|line| (line, false)));
+    rows
+}
+
+/// How many samples are what.
+fn counts(drawn: &Drawn, width: usize) -> Vec<(String, bool)> {
+    let n = drawn.outcome.counts;
+    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+    let share = if n.present > 0 { 100.0 * n.flagged as f64 / n.present as f64 } else { 0.0 };
+    let mut lines = vec![
+        String::new(),
+        format!("flagged        {} ({share:.2} %)", thousands(n.flagged)),
+        format!("isolated {}, patches {}", n.isolated, n.patches),
+    ];
+    let mut rest = vec![format!("repaired {}, removed {}", n.repaired, n.removed)];
+    let restarts = drawn.outcome.detection.judged.restarts.len();
+    for (count, word) in
+        [(n.suspects, "suspect"), (n.unchecked, "unchecked"), (n.filled, "filled"), (restarts, "restarts")]
+    {
+        if count > 0 {
+            rest.push(format!("{word} {}", thousands(count)));
+        }
+    }
+    lines.extend(wrapped(&rest.join(", "), width));
+    lines.into_iter().map(|line| (line, false)).collect()
 }
 
 pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
@@ -141,18 +209,18 @@ pub(super) fn one_line(model: &Model, area: Rect, buffer: &mut Buffer) {
         if i == active { format!("  {name}‹{value}›") } else { format!("  {name}{value}") }
     };
     let width = |i: usize| item(i).chars().count();
-    // As many as fit, the first (the method) and the active one before all others.
-    let mut shown = vec![0];
-    if active > 0 {
-        shown.push(active);
-    }
-    let mut used: usize = shown.iter().map(|i| width(*i)).sum();
-    for i in 1..knobs.len() {
-        if i != active && used + width(i) + 1 < usize::from(area.width) {
+    // As many as fit: the method, the active one and the repair before all others.
+    let mut wanted = vec![0, active];
+    wanted.extend(knobs.iter().position(|k| k.name() == "repair"));
+    wanted.extend(1..knobs.len());
+    let (mut shown, mut used) = (Vec::new(), 0);
+    for i in wanted {
+        if !shown.contains(&i) && (shown.len() < 2 || used + width(i) + 3 < usize::from(area.width)) {
             used += width(i);
             shown.push(i);
         }
     }
+    let all = shown.len() == knobs.len();
     shown.sort_unstable();
     let span = |i: usize| {
         let style = if i == active {
@@ -164,5 +232,9 @@ pub(super) fn one_line(model: &Model, area: Rect, buffer: &mut Buffer) {
         };
         Span::styled(item(i), style)
     };
-    Line::from(shown.into_iter().map(span).collect::<Vec<_>>()).render(area, buffer);
+    let mut spans: Vec<Span<'_>> = shown.into_iter().map(span).collect();
+    if !all {
+        spans.push(Span::styled(" …", theme.dim));
+    }
+    Line::from(spans).render(area, buffer);
 }

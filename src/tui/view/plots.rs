@@ -124,7 +124,7 @@ impl<'a> Plots<'a> {
             })
         });
         let cursor = self.series.y.get(state.cursor).map(|&y| Cursor { position: state.cursor, y });
-        let widget = TracePlot { columns: &columns, theme, glyphs, layers: plot::Layers::ALL, cursor, selection: None };
+        let widget = TracePlot { columns, theme, glyphs, layers: plot::Layers::ALL, cursor, selection: None };
         let note = widget.y_note();
         let words = self.trace_words(columns, &note);
         let words: Vec<Words<'_>> = words.iter().map(|w| Words::styled(w.as_str(), theme.dim)).collect();
@@ -211,26 +211,18 @@ impl<'a> Plots<'a> {
         });
         let nothing = Pyramid::default();
         let pyramid = self.drawn.map_or(&nothing, |d| &d.ratios);
-        let ratio = |i: usize| self.drawn.and_then(|d| d.ratio(&self.series, i));
+        let ratio = |i: usize| self.drawn.and_then(|d| d.residual(&self.series, i));
         let cursor = Some(state.cursor);
-        let top = ResidualPlot::TOP;
-        let widget = ResidualPlot { columns, ratio: &ratio, pyramid, top, theme, glyphs, cursor };
-        let what = if widget.is_signed() {
-            "in tolerances, flagged from ±1"
-        } else {
-            "worst per column, in tolerances, flagged from 1"
-        };
-        let k = self.drawn.and_then(|d| tolerance_words(d, &self.series, state.cursor)).unwrap_or_default();
-        let words = [Words::styled(format!("{what}  "), theme.dim), Words::styled(k, theme.dim)];
+        let threshold = self.drawn.map_or(1.0, |d| d.threshold);
+        let top = ResidualPlot::top_for(threshold);
+        let widget = ResidualPlot { columns, ratio: &ratio, pyramid, threshold, top, theme, glyphs, cursor };
+        let unit = if self.drawn.is_some_and(Drawn::in_scales) { "scales" } else { "tolerances" };
+        let what = if widget.is_signed() { "in" } else { "worst per column in" };
+        let at = format!("{what} {unit}, flagged from {}  ", short(threshold));
+        let words = [Words::styled(at, theme.dim)];
         heading(model, Panel::Residual, &words, head, buffer);
         widget.render(body, buffer);
     }
-}
-
-/// The tolerance at the cursor, in the units of the channel.
-fn tolerance_words(drawn: &Drawn, series: &Series<'_>, cursor: usize) -> Option<String> {
-    let h = drawn.outcome.detection.judged.tolerance.get(cursor).copied().filter(|h| *h > 0.0)?;
-    (cursor < series.len()).then(|| format!("tolerance here {}", short(h)))
 }
 
 fn take_bottom(rest: &mut Rect) -> Rect {

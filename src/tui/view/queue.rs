@@ -10,7 +10,7 @@ use super::super::drawn::state;
 use super::super::model::{Model, Sort};
 use super::super::plot::FlagState;
 use super::super::update::mark_at;
-use super::{clear, heading, thousands};
+use super::{clear, heading, several_days, thousands};
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     clear(area, buffer);
@@ -22,10 +22,17 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         Sort::State => "by state",
     };
     let words = [Span::styled(format!("{by}  {} in all ", thousands(queue.len())), theme.dim)];
-    let body = heading(model, Panel::Queue, &words, area, buffer);
+    let mut body = heading(model, Panel::Queue, &words, area, buffer);
     if queue.is_empty() {
         Line::styled(" nothing is flagged", theme.dim).render(body, buffer);
         return;
+    }
+    if body.height >= 6 {
+        let in_scales = model.state().drawn.as_ref().is_some_and(|d| d.in_scales());
+        let unit = if in_scales { "scales" } else { "ratio" };
+        Line::styled(format!(" {:>9}  {:>11} {unit:>7}", "row", "time"), theme.dim)
+            .render(Rect { height: 1, ..body }, buffer);
+        body = Rect { y: body.y + 1, height: body.height - 1, ..body };
     }
     let cursor = model.state().cursor;
     let current = if model.sort == Sort::Time {
@@ -40,11 +47,18 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         let i = position as usize;
         let here = i == cursor;
         let shown = mark_at(model, i).as_ref().and_then(state);
-        let ratio = model.state().drawn.as_ref().and_then(|d| d.ratio(&series, i));
+        let ratio = model.state().drawn.as_ref().and_then(|d| d.residual(&series, i));
         let ratio = ratio.map_or_else(|| "-".to_owned(), ratio_text);
-        let time = model.track.time.label(series.t[i], 1);
+        let time = match (several_days(model), model.track.time.date(series.t[i])) {
+            // Month and day, and the minute.
+            (true, Some(date)) => {
+                let clock = model.track.time.label(series.t[i], 0);
+                format!("{} {}", date.get(5..).unwrap_or(&date), clock.get(..5).unwrap_or(&clock))
+            }
+            _ => model.track.time.label(series.t[i], 1),
+        };
         let glyph = shown.map_or(' ', |s| model.glyphs.flag(s));
-        let text = format!("{}{:>9}  {time:>10}  {ratio:>7} ", if here { '>' } else { ' ' }, series.row(i) + 1);
+        let text = format!("{}{:>9}  {time:>11} {ratio:>7} ", if here { '>' } else { ' ' }, series.row(i) + 1);
         let style = match (here, shown) {
             (true, _) => theme.focus,
             (false, Some(FlagState::Unreviewed | FlagState::ByHand)) => theme.text,

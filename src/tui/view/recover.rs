@@ -14,7 +14,7 @@ pub(super) fn draw(model: &Model, offered: &[Found], area: Rect, buffer: &mut Bu
     let lines = lines(model, found, offered.len() - 1);
     let height = u16::try_from(lines.len() + 2).unwrap_or(u16::MAX);
     let inside = popup(model, "unsaved work was found", (74, height), area, buffer);
-    rows(lines, 0, inside, buffer);
+    rows(model, lines, 0, inside, buffer);
 }
 
 fn lines(model: &Model, found: &Found, more: usize) -> Vec<Line<'static>> {

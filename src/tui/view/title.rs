@@ -31,13 +31,15 @@ fn left_side(model: &Model, width: usize) -> Line<'static> {
     let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
     let size = format!(" · {} samples", thousands(model.series().len()));
     let fixed = channel.chars().count() + place.len() + 5;
-    let name = fit(&name, width.saturating_sub(fixed).clamp(6, 40));
-    let mut spans = vec![
-        Span::styled(format!(" {name}"), theme.text),
-        Span::styled(" · ", theme.dim),
-        Span::styled(format!("{channel}{unit}"), theme.title),
-        Span::styled(place, theme.dim),
-    ];
+    let room = width.saturating_sub(fixed + unit.chars().count());
+    let mut spans = vec![Span::raw(" ")];
+    // The channel is what the screen is about; the record's name goes first where there is no room for both.
+    if room >= 8 {
+        spans.push(Span::styled(fit(&name, room.min(40)), theme.text));
+        spans.push(Span::styled(" · ", theme.dim));
+    }
+    spans.push(Span::styled(format!("{channel}{unit}"), theme.title));
+    spans.push(Span::styled(place, theme.dim));
     let used: usize = spans.iter().map(Span::width).sum();
     if used + size.chars().count() < width {
         spans.push(Span::styled(size, theme.dim));
@@ -52,7 +54,7 @@ fn right_side(model: &Model) -> Line<'static> {
         None => spans.push(Span::styled("computing … ", theme.warning)),
         Some(drawn) => {
             let counts = drawn.outcome.counts;
-            if let Some(truth) = &model.track.truth {
+            if let Some(truth) = model.track.truth_for(&model.plan().channel).filter(|_| model.size.0 >= 80) {
                 let score = Score::of(&drawn.outcome, &model.series(), truth);
                 let text = format!("missed {} false {}  ", score.missed, score.false_alarms);
                 spans.push(Span::styled(text, theme.dim));
@@ -72,7 +74,7 @@ fn right_side(model: &Model) -> Line<'static> {
     }
     // The mark of an old result stands where a blank is without it: the counts stay put while a knob is turned.
     let old = state.stale && state.drawn.is_some();
-    let unsaved = if model.unsaved() { "[+] " } else { "" };
+    let unsaved = if model.unsaved() { "[+] " } else { "    " };
     spans.push(Span::styled(format!("{}{unsaved}", if old { '…' } else { ' ' }), theme.warning));
     Line::from(spans)
 }

@@ -1,0 +1,156 @@
+//! `compare`: every applicable method on one channel, side by side; and what so many of them agree on.
+
+use std::io::Write;
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::comparison::{Row, Skipped, Told};
+use super::consensus::{Ballot, written};
+use super::{Ending, one_channel, print, print_json, set, set_threads};
+use crate::cli::CompareArgs;
+use crate::error::{Error, Result};
+use crate::method::shared::MAX_GAP;
+use crate::method::{METHODS, Method, Verdict};
+use crate::review::Decisions;
+use crate::score::Score;
+use crate::session::{Preset, Setup, detect, method_of_id, settle};
+use crate::stop::Stop;
+use crate::track::{Samples, Track};
+
+pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
+    set_threads(args.threads)?;
+    let writes = [&args.outputs.output, &args.outputs.flags, &args.outputs.diagnostics];
+    if args.votes.is_none() && writes.iter().any(|w| w.is_some()) {
+        return Err(Error::usage("there is no consensus to write", "say with --votes K how many methods must agree"));
+    }
+    let (setups, skipped) = setups(args)?;
+    if let Some(votes) = args.votes
+        && !(1..=setups.len()).contains(&votes)
+    {
+        let what = format!("--votes {votes}: {} methods take part", setups.len());
+        return Err(Error::usage(what, format!("give 1 .. {}", setups.len())));
+    }
+    let (track, index, note) = one_channel(&args.file, &args.load, args.rate.as_deref())?;
+    let channel = &track.channels[index];
+    let samples = Samples::of(channel, &track.time);
+    let judged =
+        set::for_all(&setups, args.outputs.quiet || args.outputs.json, |setup| judge(&track, index, &samples, setup));
+    let judged: Vec<(Row, Vec<Verdict>)> = judged.into_iter().collect::<Result<_>>()?;
+    let (rows, verdicts): (Vec<Row>, Vec<Vec<Verdict>>) = judged.into_iter().unzip();
+    let ballot = Ballot::of(&verdicts, samples.series(channel, &track.time).len());
+    let consensus = match args.votes {
+        Some(votes) => Some(written(args, votes, &track, index, &samples, &ballot)?),
+        None => None,
+    };
+    let told = Told {
+        file: args.file.display().to_string(),
+        channel: channel.name.clone(),
+        samples: ballot.samples(),
+        methods: rows,
+        skipped,
+        agreement: ballot.agreement(setups.len()),
+        consensus,
+    };
+    if args.outputs.json {
+        print_json(out, &told)
+    } else if args.outputs.quiet {
+        Ok(Ending::Done)
+    } else {
+        print(out, &told.text(&note))
+    }
+}
+
+/// The methods that take part with their settings, and those that cannot.
+fn setups(args: &CompareArgs) -> Result<(Vec<Setup>, Vec<Skipped>)> {
+    let named: Vec<&'static dyn Method> = args.method.iter().map(|id| method_of_id(id)).collect::<Result<_>>()?;
+    let all = if named.is_empty() { METHODS } else { named.as_slice() };
+    let (mut setups, mut skipped) = (Vec::new(), Vec::new());
+    for &method in all {
+        let about = method.about();
+        if about.needs_rate && args.rate.is_none() {
+            skipped.push(Skipped { method: about.id, why: "needs a rate channel (--rate)" });
+            continue;
+        }
+        let mut setup = Setup::new(method, Preset::from(args.preset));
+        setup.rate.clone_from(&args.rate);
+        setups.push(setup);
+    }
+    if setups.is_empty() {
+        return Err(Error::usage("no method takes part", "name a rate channel with --rate, or another --method"));
+    }
+    if let Some(gap) = &args.max_gap {
+        assign(&mut setups, MAX_GAP.key, gap)?;
+    }
+    for (key, value) in &args.set {
+        assign(&mut setups, key, value)?;
+    }
+    Ok((setups, skipped))
+}
+
+/// Sets `ID.KEY` of one method, or `KEY` of all that have it.
+fn assign(setups: &mut [Setup], key: &str, value: &str) -> Result<()> {
+    if let Some((id, key)) = key.split_once('.') {
+        let method = method_of_id(id)?.about().id;
+        return match setups.iter_mut().find(|s| s.method.about().id == method) {
+            Some(setup) => setup.settings.set_text(method, key, value),
+            None => {
+                Err(Error::usage(format!("{id}: does not take part"), "name it with --method, or leave out its --set"))
+            }
+        };
+    }
+    let mut known = false;
+    for setup in setups.iter_mut().filter(|s| s.settings.get(key).is_some()) {
+        known = true;
+        setup.settings.set_text(setup.method.about().id, key, value).map_err(|e| match e {
+            Error::Usage { what, help } => Error::usage(
+                format!("{}: {what}", setup.method.about().id),
+                format!("{help}\n  or set it for some methods only: --set ID.{key}=VALUE"),
+            ),
+            other => other,
+        })?;
+    }
+    if known {
+        return Ok(());
+    }
+    Err(Error::usage(format!("{key}: no method has such a parameter"), "see `wildpoint methods`; --set ID.KEY=VALUE"))
+}
+
+/// What one method says, and how long it took on one core.
+fn judge(track: &Track, index: usize, samples: &Samples, setup: &Setup) -> Result<(Row, Vec<Verdict>)> {
+    let channel = &track.channels[index];
+    let stop = Stop::never();
+    let timed = || {
+        let start = Instant::now();
+        let detection = detect(track, channel, samples, setup, None, &stop)?;
+        Ok::<_, Error>((detection, start.elapsed().as_secs_f64() * 1e3))
+    };
+    // A pool of one thread: the time of a method would otherwise hold parts of others that run meanwhile.
+    let (detection, ms) = match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+        Ok(pool) => pool.install(timed)?,
+        Err(_) => timed()?,
+    };
+    let verdicts = detection.judged.verdict.clone();
+    let outcome = settle(track, channel, samples, Arc::new(detection), &Decisions::default(), &stop)?;
+    let series = samples.series(channel, &track.time);
+    let score = track.truth_for(&channel.name).map(|truth| Score::of(&outcome, &series, truth));
+    Ok((Row::of(setup.method.about().id, &outcome.counts, Some(ms), score), verdicts))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_setting_goes_to_one_method_or_to_all_that_have_it() {
+        let ids = ["hampel", "two-sided"];
+        let mut setups: Vec<Setup> =
+            ids.iter().map(|id| Setup::new(method_of_id(id).unwrap(), Preset::Default)).collect();
+        assign(&mut setups, "hampel.k", "7").unwrap();
+        assign(&mut setups, "max_gap", "off").unwrap();
+        assert_eq!((setups[0].settings.real("k"), setups[1].settings.real("k")), (7.0, 4.0));
+        assert!(setups.iter().all(|s| s.settings.whole_or_off("max_gap").is_none()));
+        for (key, value) in [("gesd.alpha", "0.1"), ("nonsense", "1"), ("hampel.nonsense", "1"), ("k", "x")] {
+            assert!(assign(&mut setups, key, value).is_err(), "{key}={value}");
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! `clean --suggest`: thresholds from the record itself (section 8a of the methods page).
+
+use crate::cli::Shared;
+use crate::error::{Error, Result};
+use crate::session::Session;
+use crate::session::sweep::{FROM, STEPS, TO, grid, multiplier, sweep};
+use crate::stop::Stop;
+use crate::track::{Samples, Track};
+
+/// Gives each plan of `session` the suggested multiplier, where its channel has a clear gap between noise and wild
+/// points. Returns what was done, a line for each plan.
+///
+/// # Errors
+/// [`Error::Usage`] for a method without a multiplier; what a sweep gives.
+pub(super) fn suggest(session: &mut Session, track: &Track) -> Result<Vec<String>> {
+    let values = grid(FROM, TO, STEPS, true)?;
+    let mut lines = Vec::with_capacity(session.plans.len());
+    for plan in &mut session.plans {
+        let param = multiplier(&plan.setup)?;
+        let key = param.key;
+        let Some(channel) = track.channel(&plan.channel) else { continue };
+        let samples = Samples::of(channel, &track.time);
+        let swept = sweep(track, channel, &samples, &plan.setup, (param, &values), &Stop::never())?;
+        lines.push(match (swept.suggestion, swept.suggested()) {
+            (Some(value), Some(plateau)) => {
+                plan.setup.set_text(key, &value.to_string())?;
+                let (least, most) = (plateau.least, plateau.most);
+                let count = if least == most { most.to_string() } else { format!("{least} to {most}") };
+                let (from, to) = (plateau.from, plateau.to);
+                format!("{key} = {value} was suggested: {count} flagged from {key} = {from:.3} to {to:.3}")
+            }
+            _ => {
+                let kept = plan.setup.settings.get(key).map_or(String::new(), |v| format!(": {key} stays {v}"));
+                format!("nothing was suggested, there is no clear gap between noise and wild points{kept}")
+            }
+        });
+    }
+    Ok(lines)
+}
+
+/// Refuses a threshold that is both given and to be found.
+///
+/// # Errors
+/// [`Error::Usage`].
+pub(super) fn check(shared: &Shared) -> Result<()> {
+    let key = multiplier(&shared.setup()?)?.key;
+    if shared.set.iter().any(|(k, _)| k == key) {
+        return Err(Error::usage(
+            format!("--suggest finds {key} itself"),
+            format!("leave out --set {key}, or --suggest"),
+        ));
+    }
+    Ok(())
+}
+
+/// The session file with `lines`, one for each plan, as comments under the names of the channels.
+pub(super) fn noted(document: &str, lines: &[String]) -> String {
+    let mut lines = lines.iter();
+    let mut out = String::with_capacity(document.len());
+    let mut begins = false;
+    for line in document.lines() {
+        out += line;
+        out.push('\n');
+        if begins && let Some(note) = lines.next() {
+            out += &format!("# {note}\n");
+        }
+        begins = line == "[[channel]]";
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_channel_has_its_note_under_its_name() {
+        let document = "format = 1\n\n[[channel]]\nname = \"a\"\nmethod = \"x\"\n\n[[channel]]\nname = \"b\"\n";
+        let noted = noted(document, &["one".into(), "two".into()]);
+        assert!(noted.contains("name = \"a\"\n# one\nmethod") && noted.ends_with("name = \"b\"\n# two\n"), "{noted}");
+    }
+}

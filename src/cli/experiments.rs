@@ -1,0 +1,124 @@
+//! What can be typed after `simulate`, `reproduce` and `inject`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::Load;
+use crate::experiment::Plan;
+use crate::experiment::inject::{Amount, Patches, Span, Step};
+
+/// Write the data of a published experiment as CSV.
+///
+/// Columns: the time, the channel, the same channel before the outliers were added (NAME_clean), a rate where the
+/// experiment has one, and the truth (1 marks an outlier). The same seed gives the same bytes on every machine. To see
+/// how a method fares: wildpoint simulate jin -o jin.csv, then
+/// wildpoint clean jin.csv --channel x --reference x_clean.
+#[derive(Debug, Clone, Args)]
+pub struct SimulateArgs {
+    /// Which: demo, jiang, hou-offline, hou-realtime, jin, qin, gan.
+    pub experiment: String,
+    /// Seed of the random numbers [default: the experiment's own].
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Write so many runs, with the seeds S, S+1, ...: one after the other in time with a gap between (so that methods
+    /// cut there), told apart by a column `run`.
+    #[arg(long, value_name = "N", default_value = "1", value_parser = runs)]
+    pub runs: usize,
+    /// Write to this file instead of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Overwrite an existing file.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Run the published experiments and print their tables beside ours.
+///
+/// Under each table stand the statements of the document: those that hold in the figures measured here and those
+/// that do not, with the figures. The documents' data are not public; what stands in for them is told with each.
+/// Runs on all cores.
+#[derive(Debug, Clone, Args)]
+pub struct ReproduceArgs {
+    /// Which: jiang, hou-offline, hou-realtime, jin, qin, gan [default: all].
+    pub experiment: Option<String>,
+    /// Seed of the first run; the others follow [default: the experiment's own].
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Runs [default: the experiment's own number].
+    #[arg(long, value_name = "N", value_parser = runs)]
+    pub runs: Option<usize>,
+    /// Threads to use; all cores by default.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Add known wild points to a record, so that methods can be compared on it.
+///
+/// The channel (the first, or the one named with --channel) gets wild points at random places; everything else stays
+/// byte for byte. Two columns are added at the right: CHANNEL_raw, the channel as it was, and CHANNEL_truth, in which 1
+/// marks a wild point (and what a truth column of the record marked before). Sizes count in noise scales
+/// of the channel, measured from third differences. Then: wildpoint clean OUT --channel CHANNEL --reference
+/// CHANNEL_raw tells how many a method finds and how close its repair comes (steps are in no CHANNEL_raw).
+#[derive(Debug, Clone, Args)]
+pub struct InjectArgs {
+    /// The record.
+    pub file: PathBuf,
+    /// How to load it.
+    #[command(flatten)]
+    pub load: Load,
+    /// Seed of the random numbers: the same seed puts in the same points.
+    #[arg(long, default_value = "1")]
+    pub seed: u64,
+    /// Wild points that stand alone: a number, or a part of the samples.
+    #[arg(long, value_name = "N|N%", default_value = "1%")]
+    pub isolated: Amount,
+    /// Wild points in patches of neighbours with about the same error: how many, of how many samples.
+    #[arg(long, value_name = "NxLOW..HIGH")]
+    pub patches: Option<Patches>,
+    /// A lasting change of the level, up or down, at a random place or so many seconds after the start; repeatable. It
+    /// is real: truth does not mark it, and a method that flags it raises a false alarm.
+    #[arg(long, value_name = "SIZE[@SECONDS]", allow_hyphen_values = true)]
+    pub step: Vec<Step>,
+    /// Sizes of the wild points, either way, in noise scales.
+    #[arg(long, value_name = "LOW..HIGH", default_value = "5..20")]
+    pub amplitude: Span,
+    /// The noise scale in the channel's units [default: measured].
+    #[arg(long, value_name = "NUMBER", value_parser = scale)]
+    pub sigma: Option<f64>,
+    /// Write the record here.
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// Overwrite an existing output (never the input).
+    #[arg(long)]
+    pub force: bool,
+    /// Print what was put in as JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl InjectArgs {
+    /// What is to be put in.
+    #[must_use]
+    pub fn plan(&self) -> Plan {
+        Plan {
+            seed: self.seed,
+            isolated: self.isolated,
+            patches: self.patches.unwrap_or_default(),
+            steps: self.step.clone(),
+            amplitude: self.amplitude,
+            sigma: self.sigma,
+        }
+    }
+}
+
+fn scale(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0).ok_or_else(|| "a number above 0 is wanted".to_owned())
+}
+
+fn runs(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|n| (1..=100_000).contains(n)).ok_or_else(|| "1 to 100000 runs can be made".to_owned())
+}

@@ -1,0 +1,128 @@
+//! The simulation of \[002\]: a parabola with random outliers, to which the 3-sigma criterion is applied alone and
+//! after a least-squares trend has been taken off.
+
+use super::record::{Record, Signal, Wild};
+use super::reproduction::{Cell, Figures, Finding, Runs, Table};
+use super::trial::{Trial, setup};
+use super::{Experiment, Published, Random};
+use crate::error::Result;
+use crate::session::Preset;
+
+/// The row of the table.
+pub const EXPERIMENT: Experiment = Experiment {
+    id: "jin",
+    help: "3 sigma alone and after a least-squares trend, on a parabola with random outliers",
+    source: "[002] section 4.1, figures 2 and 5",
+    record,
+    seed: 2011,
+    reproduction: Some(Published {
+        runs: 50,
+        stand_in: "x = 5 (t/10)^2 over 20 s at 50 Hz, noise at 25 dB below the mean square of x (0.50). The document \
+                   shows random outliers in a figure and says neither how many nor how large: 2 % of the samples, 5 \
+                   to 15 either way, of which a reader would call none normal. Paper settings: three passes, the \
+                   trend fitted once.",
+        trial,
+        conclude,
+    }),
+};
+
+const SAMPLES: usize = 1000;
+const INTERVAL: f64 = 0.02;
+const OUTLIERS: usize = 20;
+/// The mean square of x over 0 .. 20 s is 80; 25 dB below it are 80 / 10^2.5.
+const POWER: f64 = 80.0;
+const RATIO: f64 = 316.227_766_016_837_94;
+/// The last tenth of the record, in which figure 2 shows good data cut off.
+const TAIL: std::ops::Range<usize> = 900..SAMPLES;
+
+fn record(seed: u64) -> Record {
+    let mut random = Random::new(seed);
+    let deviation = (POWER / RATIO).sqrt();
+    #[expect(clippy::cast_precision_loss, reason = "1000 samples")]
+    let t: Vec<f64> = (0..SAMPLES).map(|i| i as f64 * INTERVAL).collect();
+    let clean: Vec<f64> = t.iter().map(|t| 0.05 * t * t + deviation * random.normal()).collect();
+    let (mut errors, mut wild) = (vec![0.0; SAMPLES], vec![None; SAMPLES]);
+    let mut left = OUTLIERS;
+    while left > 0 {
+        let at = random.whole(0, SAMPLES - 1);
+        if wild[at].is_none() {
+            wild[at] = Some(Wild::Isolated);
+            errors[at] = random.sign() * random.between(5.0, 15.0);
+            left -= 1;
+        }
+    }
+    Record::new(Signal::new("t_s", 2, t), vec![Signal::with_errors("x", 4, &clean, &errors)], wild)
+}
+
+const METHODS: [(&str, &str); 2] = [("wright", "figure 2"), ("trend-wright", "figure 5")];
+const FOUND: usize = 0;
+const FALSE: usize = 1;
+const CUT: usize = 2;
+
+fn trial(record: &Record) -> Result<Figures> {
+    let trial = Trial::of(record)?;
+    let mut figures = Vec::new();
+    for (method, _) in METHODS {
+        let outcome = trial.judge(&setup(method, Preset::Paper, &[])?)?;
+        let tally = trial.tally(&outcome);
+        let cut = outcome.outliers.iter().filter(|&&i| TAIL.contains(&i) && record.wild[i].is_none()).count();
+        #[expect(clippy::cast_precision_loss, reason = "counts of a thousand samples")]
+        let values = [tally.hits(), tally.false_alarms, cut].map(|n| n as f64).to_vec();
+        figures.push((method, values));
+    }
+    Ok(figures)
+}
+
+fn conclude(runs: Runs<'_>) -> (Vec<Table>, Vec<Finding>) {
+    let share = |method: &str| runs.mean(method, FOUND) / 20.0 * 100.0;
+    let said = |method: &str| {
+        if method == "wright" { "the tail of the signal cut, hardly an outlier found" } else { "nearly all found" }
+    };
+    let row = |(method, figure): &(&'static str, &'static str)| {
+        vec![
+            Cell::text(*method),
+            Cell::text(*figure),
+            Cell::text(said(method)),
+            Cell::number(runs.mean(method, FOUND), 1),
+            Cell::number(share(method), 1),
+            Cell::number(runs.mean(method, FALSE), 1),
+            Cell::number(runs.mean(method, CUT), 1),
+        ]
+    };
+    let table = Table {
+        title: "Figures 2 and 5 as counts: 1000 samples, 20 outliers".into(),
+        columns: vec!["method", "figure", "the document", "found", "found %", "false", "good in the tail cut"],
+        rows: METHODS.iter().map(row).collect(),
+    };
+    let findings = vec![
+        Finding {
+            id: "wright-misses",
+            statement: "Wright alone hardly finds the outliers of a position record",
+            holds: share("wright") < 50.0,
+            measured: format!("it finds {:.0} %", share("wright")),
+        },
+        Finding {
+            id: "wright-cuts-the-tail",
+            statement: "Wright alone cuts off the tail of the true signal",
+            holds: runs.mean("wright", CUT) >= 1.0,
+            measured: format!(
+                "{:.1} good samples of the last tenth flagged; the largest |x - mean| / s of a parabola is sqrt(5) = \
+                 2.236, so 3 sigma cannot reach its end at any length",
+                runs.mean("wright", CUT)
+            ),
+        },
+        Finding {
+            id: "trend-finds-what-wright-leaves",
+            statement: "Least-squares trend + Wright removes nearly all outliers and loses no useful data",
+            holds: share("trend-wright") >= 95.0
+                && runs.mean("trend-wright", FALSE) < 0.01 * 1000.0
+                && share("trend-wright") > share("wright"),
+            measured: format!(
+                "it finds {:.0} % and flags {:.1} of 980 good samples",
+                share("trend-wright"),
+                runs.mean("trend-wright", FALSE)
+            ),
+        },
+    ];
+    (vec![table], findings)
+}
