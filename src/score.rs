@@ -8,7 +8,7 @@ mod detail;
 
 pub use detail::{Events, FinalError, Part, RunLength, Scores, final_error};
 
-/// Hits and misses against a truth column, over the present samples. Section 1 of the methods page.
+/// Hits and misses against a truth column, over all rows that it marks. Section 1 of the methods page.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Score {
     /// Samples that the truth marks.
@@ -30,7 +30,8 @@ impl Score {
     #[must_use]
     pub fn of(outcome: &Outcome, series: &Series<'_>, truth: &[bool]) -> Self {
         let wild = |position: usize| truth.get(series.row(position)).copied().unwrap_or(false);
-        let all = (0..series.len()).filter(|&i| wild(i)).count();
+        // A marked row without a value cannot be flagged: it counts as missed all the same.
+        let all = truth.iter().filter(|t| **t).count();
         let hits = outcome.outliers.iter().filter(|&&i| wild(i)).count();
         debug_assert!(outcome.outliers.iter().all(|&i| outcome.verdict(i) == Verdict::Outlier));
         let flagged = outcome.outliers.len();

@@ -201,7 +201,12 @@ impl Setup {
 impl Session {
     /// A session on `track` with one plan for each of its channels.
     #[must_use]
-    pub fn new(track: &Track, options: LoadOptions, setup: &Setup) -> Self {
+    pub fn new(track: &Track, mut options: LoadOptions, setup: &Setup) -> Self {
+        // What was recognised is recorded, so that a later version recognises nothing else.
+        options.time.get_or_insert_with(|| match track.time.column {
+            Some(column) => track.columns[column].name.clone(),
+            None => "sample".into(),
+        });
         let plan = |name: &str| Plan { channel: name.into(), setup: setup.clone(), decisions: Decisions::default() };
         Self {
             data: Data {

@@ -300,7 +300,8 @@ impl Track {
             _ => "",
         };
         let is_about = |name: &str| name.starts_with(about);
-        (is_about(channel) || !self.channels.iter().any(|c| is_about(&c.name))).then_some(truth)
+        let numbers = self.columns.iter().filter(|c| c.kind == ColumnKind::Number || c.kind == ColumnKind::Text);
+        (is_about(channel) || !numbers.into_iter().any(|c| is_about(&c.name))).then_some(truth)
     }
 
     /// The channel of this name.

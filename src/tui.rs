@@ -192,13 +192,19 @@ fn work(
         // A burst of keys is drawn once.
         events.try_iter().for_each(|event| take_event(event, &mut normaliser, &mut inbox));
         inbox.extend(messages.try_iter());
+        // Advice that no panel shows changes nothing on the screen: nothing goes over the wire.
+        let unseen = |m: &Message| matches!(m, Message::Advised { .. } | Message::NoAdvice);
+        let panel = layout::arrange(model).is_some_and(|areas| areas.parameters.is_some());
+        let still = !panel && !inbox.is_empty() && inbox.iter().all(unseen);
         for message in inbox {
             if outside.take(model, screen, message)? == Next::Leave {
                 return Ok(Left::Quit);
             }
         }
         outside.journal.catch_up();
-        screen.draw(model)?;
+        if !still {
+            screen.draw(model)?;
+        }
     }
 }
 

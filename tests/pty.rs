@@ -274,6 +274,8 @@ fn bytes_for(terminal: &mut Terminal, keys: &str, shown: &str) -> usize {
 #[test]
 fn few_bytes_go_over_the_wire() {
     let (folder, mut terminal) = workbench(WIDE);
+    // The advice comes when it comes: from here on, only keys change the screen.
+    terminal.wait_for("f takes k");
     // This only holds what has been reached (778, and less once the queue stays as it is); the bar of the design is in the test below.
     let steps = [("k 4.0 → 4.1", 900), ("k 4.1 → 4.2", 900)];
     for (shown, most) in steps {
@@ -297,6 +299,7 @@ fn few_bytes_go_over_the_wire() {
 #[ignore = "not reached by a step that adds a flag above: the rows of the queue move"]
 fn a_threshold_step_keeps_to_the_bar_of_the_design() {
     let (_folder, mut terminal) = workbench(WIDE);
+    terminal.wait_for("f takes k");
     for shown in ["k 4.0 → 4.1", "k 4.1 → 4.2"] {
         let bytes = bytes_for(&mut terminal, ".", shown);
         assert!(bytes < 400, "a threshold step takes {bytes} bytes");

@@ -193,7 +193,7 @@ fn a_channel_twice_or_one_that_is_not_there_is_refused() {
 #[test]
 fn a_record_that_is_gone_and_a_file_that_is_no_session_are_refused() {
     let folder = folder_with(&SESSION.replace("../data/demo.csv", "gone.csv"), DEMO);
-    for (name, wanted) in [("demo.toml", "gone.csv: cannot read"), ("none.toml", "none.toml: cannot read")] {
+    for (name, wanted) in [("demo.toml", "gone.csv is not there"), ("none.toml", "none.toml: cannot read")] {
         let ran = folder.run(&format!("replay {name}"));
         assert_eq!((ran.status, ran.out.as_str()), (2, ""));
         assert!(ran.err.contains(wanted), "{}", ran.err);

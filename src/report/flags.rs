@@ -29,7 +29,7 @@ const HEADER: [&str; 17] = [
     "note",
 ];
 
-/// Writes the audit table as CSV. A missing sample has a row only when it was filled.
+/// Writes the audit table as CSV. Missing samples are in the diagnostics, filled or not.
 ///
 /// # Errors
 /// When the input cannot be read again, or the table cannot be written.
@@ -37,10 +37,7 @@ pub fn flags(track: &Track, session: &Session, analysed: &Analysed, out: &mut dy
     let mut writer = csv::Writer::from_writer(out);
     write_row(&mut writer, &HEADER)?;
     walk(track, session, analysed, |row, cells, channel| {
-        let fields = match channel.position(row) {
-            Some(position) => of_sample(session, channel, row, position),
-            None => channel.fill(row).map(|value| of_fill(track, channel, row, value)),
-        };
+        let fields = channel.position(row).and_then(|position| of_sample(session, channel, row, position));
         let Some(mut fields) = fields else { return Ok(()) };
         fields[1] = time_text(track, row, cells);
         let fields: Vec<&str> = fields.iter().map(String::as_str).collect();
@@ -92,16 +89,4 @@ fn of_sample(session: &Session, channel: &Walk<'_>, row: usize, position: usize)
         if decision.is_some() { "analyst" } else { "method" }.to_owned(),
         decision.map(|d| d.note.clone()).unwrap_or_default(),
     ])
-}
-
-fn of_fill(track: &Track, channel: &Walk<'_>, row: usize, value: f64) -> [String; 17] {
-    let mut fields: [String; 17] = std::array::from_fn(|_| String::new());
-    fields[0] = (row + 1).to_string();
-    channel.name.clone_into(&mut fields[2]);
-    fields[3] = cell(channel.raw(track, row, None));
-    Verdict::Missing.word().clone_into(&mut fields[4]);
-    fields[13] = cell(Some(value));
-    "repaired".clone_into(&mut fields[14]);
-    "method".clone_into(&mut fields[15]);
-    fields
 }

@@ -59,7 +59,7 @@ fn open_with(path: &Path, accept_changed: bool, only_planned: bool) -> Result<Op
         }
     }
     let options = LoadOptions { channels, ..session.data.options.clone() };
-    let track = load(&session.data.source, &options)?;
+    let track = load(&session.data.source, &options).map_err(|e| of_session(path, e))?;
     let mut notes = Vec::new();
     let changed = track.sha256 != session.data.sha256;
     let misfits = misfits(&track, &session.plans, &texts)?;
@@ -91,6 +91,25 @@ fn open_with(path: &Path, accept_changed: bool, only_planned: bool) -> Result<Op
     session.data.sha256.clone_from(&track.sha256);
     session.data.rows = track.rows;
     Ok(Opened { session, track, notes })
+}
+
+/// What loading the record of a session complained of, with the session it is about.
+fn of_session(path: &Path, e: Error) -> Error {
+    let (what, help) = match e {
+        // A column that the session names and the record does not have.
+        Error::Usage { what, help } => (what, help),
+        Error::Io { source, path: record, .. } if source.kind() == std::io::ErrorKind::NotFound => (
+            format!("its record {} is not there", record.display()),
+            "`file` is looked for beside the session; put the record there, or correct the line".to_owned(),
+        ),
+        other => return other,
+    };
+    // The line is that of the first name in the session that the complaint quotes.
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    let quoted = what.split('`').nth(1).map(|name| format!("\"{name}\""));
+    let key = if what.starts_with("its record") { Some("file =".to_owned()) } else { quoted };
+    let line = key.and_then(|key| text.lines().position(|l| l.contains(&key))).map(|at| at + 1);
+    Error::Session { path: path.to_path_buf(), line, what, help }
 }
 
 /// A decision that does not fit the record.

@@ -140,7 +140,11 @@ pub fn sweep(
     let rest: Vec<Point> = rest.collect::<Result<_>>()?;
     let mut points = vec![count(*first_value, &base, &series, track.truth_for(&channel.name))];
     points.extend(rest);
-    Ok(Sweep::of(param.key, points))
+    let mut sweep = Sweep::of(param.key, points);
+    if matches!(param.kind, Kind::Whole { .. } | Kind::WholeOrOff { .. }) {
+        sweep.suggestion = sweep.suggestion.map(f64::round);
+    }
+    Ok(sweep)
 }
 
 fn count(value: f64, detection: &Detection, series: &Series<'_>, truth: Option<&[bool]>) -> Point {

@@ -110,7 +110,8 @@ pub(crate) fn words(name: &str) -> Vec<&str> {
 pub(crate) fn time_rank(name: &str) -> u8 {
     let words: Vec<String> = words(name).iter().map(|w| w.to_lowercase()).collect();
     let Some(first) = words.first() else { return 0 };
-    let is_time = |w: &str| matches!(w, "time" | "times" | "timestamp" | "timestamps" | "datetime" | "utc");
+    let is_time =
+        |w: &str| matches!(w, "time" | "times" | "timestamp" | "timestamps" | "datetime" | "utc" | "时间" | "时刻");
     let without_unit = match words.split_last() {
         Some((last, rest)) if !rest.is_empty() && known_unit(last).is_some() => rest,
         _ => &words[..],

@@ -128,7 +128,7 @@ fn best(head: &Head) -> Option<(usize, Form)> {
         let content = match form {
             Form::Iso { .. } => 5,
             Form::Clock | Form::YearLast { .. } if rank > 0 => 3,
-            Form::Number if rank == 4 || (rank > 0 && increases(head, column)) => 2,
+            Form::Number if rank == 4 || (rank > 0 && runs_forward(head, column)) => 2,
             _ => return None,
         };
         Some((rank + content, column, form))
@@ -157,6 +157,15 @@ fn numbers(head: &Head, column: usize) -> Vec<f64> {
         numbers.extend(head.reading.number(cell.as_bytes()).filter(|v| v.is_finite()));
     }
     numbers
+}
+
+/// True when a column whose name says time goes forward as a time does: steps back and repeated stamps are faults of
+/// single rows, not a reason to take the times for a measurement.
+fn runs_forward(head: &Head, column: usize) -> bool {
+    let numbers = numbers(head, column);
+    let forward = numbers.windows(2).filter(|w| w[1] > w[0]).count();
+    let back = numbers.windows(2).filter(|w| w[1] < w[0]).count();
+    forward > 0 && back * 4 <= forward
 }
 
 /// True when nine of ten steps go forward.

@@ -111,6 +111,10 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
         | Action::PreviousFlag
         | Action::NextUnreviewed
         | Action::PreviousUnreviewed
+        | Action::NextSuspect
+        | Action::PreviousSuspect
+        | Action::NextInQueue
+        | Action::PreviousInQueue
         | Action::Accept
         | Action::Reject
         | Action::Toggle
@@ -302,6 +306,11 @@ fn sort(model: &mut Model) -> Vec<Effect> {
         Sort::Ratio => "ratio, largest first",
         Sort::State => "state, undecided first",
     };
+    if model.sort != Sort::Time
+        && let Some(&first) = model.state().queue.first()
+    {
+        navigate::go_to(model, first as usize);
+    }
     model.say(Tone::Done, format!("queue by {by}"));
     Vec::new()
 }

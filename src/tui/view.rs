@@ -108,7 +108,17 @@ fn toast(model: &Model, area: Rect, buffer: &mut Buffer) {
         Line::default()
     };
     clear(area, buffer);
-    line.render(area, buffer);
+    // What does not fit goes on upwards: its end is the way out.
+    let width = usize::from(area.width).saturating_sub(2).max(1);
+    let style = line.spans.first().map(|s| s.style).unwrap_or_default();
+    let text: String = line.spans.iter().map(|s| s.content.as_ref()).collect();
+    let lines = parameters::wrapped(&text, width);
+    let most = usize::from(area.y).min(4);
+    for (up, text) in lines.iter().take(most.max(1)).rev().enumerate() {
+        let row = Rect { y: area.y - u16::try_from(up).unwrap_or(0), ..area };
+        clear(row, buffer);
+        said(text, style).render(row, buffer);
+    }
 }
 
 /// Words of the program. The style ends with them: styled blanks up to the edge would go over the wire each time.

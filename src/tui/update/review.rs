@@ -11,10 +11,14 @@ use crate::session::{Edit, Mark};
 
 pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
     match action {
-        Action::NextFlag => go(model, true, false),
-        Action::PreviousFlag => go(model, false, false),
-        Action::NextUnreviewed => go(model, true, true),
-        Action::PreviousUnreviewed => go(model, false, true),
+        Action::NextFlag => go(model, true, Stops::Flags),
+        Action::PreviousFlag => go(model, false, Stops::Flags),
+        Action::NextUnreviewed => go(model, true, Stops::Undecided),
+        Action::PreviousUnreviewed => go(model, false, Stops::Undecided),
+        Action::NextSuspect => go(model, true, Stops::Suspects),
+        Action::PreviousSuspect => go(model, false, Stops::Suspects),
+        Action::NextInQueue => go(model, true, Stops::All),
+        Action::PreviousInQueue => go(model, false, Stops::All),
         Action::Accept => return decide(model, Some(Ruling::Outlier)),
         Action::Reject => return decide(model, Some(Ruling::Normal)),
         Action::Clear => return decide(model, None),
@@ -41,13 +45,33 @@ pub(in crate::tui) fn mark_at(model: &Model, position: usize) -> Option<Mark> {
     state(&mark).map(|_| mark)
 }
 
-fn undecided(model: &Model, position: usize) -> bool {
-    let shown = mark_at(model, position).as_ref().and_then(state);
-    matches!(shown, Some(FlagState::Unreviewed | FlagState::Suspect))
+/// Which flags a walk stops at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stops {
+    /// All but suspects, which are a class of their own.
+    Flags,
+    /// Flags that nobody decided on.
+    Undecided,
+    /// Suspects that nobody decided on.
+    Suspects,
+    /// Everything in the queue.
+    All,
+}
+
+impl Stops {
+    fn at(self, model: &Model, position: usize) -> bool {
+        let shown = mark_at(model, position).as_ref().and_then(state);
+        match self {
+            Self::Flags => shown.is_some_and(|s| s != FlagState::Suspect),
+            Self::Undecided => shown == Some(FlagState::Unreviewed),
+            Self::Suspects => shown == Some(FlagState::Suspect),
+            Self::All => shown.is_some(),
+        }
+    }
 }
 
 /// The next flag in the order of the queue, and whether the walk went over the end.
-fn neighbour(model: &Model, forward: bool, unreviewed: bool) -> Option<(usize, bool)> {
+fn neighbour(model: &Model, forward: bool, stops: Stops) -> Option<(usize, bool)> {
     let queue = &model.state().queue;
     let cursor = model.state().cursor;
     let n = queue.len();
@@ -69,16 +93,18 @@ fn neighbour(model: &Model, forward: bool, unreviewed: bool) -> Option<(usize, b
         let index = if forward { (start + step) % n } else { (start % n + n - step) % n };
         let position = queue[index] as usize;
         let wrapped = if forward { position <= cursor } else { position >= cursor };
-        (!unreviewed || undecided(model, position)).then_some((position, wrapped && model.sort == Sort::Time))
+        stops.at(model, position).then_some((position, wrapped && model.sort == Sort::Time))
     })
 }
 
-fn go(model: &mut Model, forward: bool, unreviewed: bool) {
-    let Some((position, wrapped)) = neighbour(model, forward, unreviewed) else {
-        let text = match (model.state().queue.is_empty(), unreviewed) {
+fn go(model: &mut Model, forward: bool, stops: Stops) {
+    let Some((position, wrapped)) = neighbour(model, forward, stops) else {
+        let text = match (model.state().queue.is_empty(), stops) {
             (true, _) => "no flags under these settings",
-            (false, true) => "every flag has been decided on",
-            (false, false) => "no other flag",
+            (false, Stops::Undecided) => "every flag has been decided on",
+            (false, Stops::Suspects) => "no suspect that nobody decided on",
+            (false, Stops::Flags) => "no flags, only suspects: g n goes to the next",
+            (false, Stops::All) => "no other flag",
         };
         model.say(Tone::Warning, text);
         return;
@@ -119,7 +145,7 @@ fn decide(model: &mut Model, ruling: Option<Ruling>) -> Vec<Effect> {
     };
     let mut text = format!("{word} row {row} · u undo");
     if ruling.is_some() {
-        match neighbour(model, true, true) {
+        match neighbour(model, true, Stops::Undecided) {
             Some((next, _)) => navigate::go_to(model, next),
             None => text.push_str(" · every flag has been decided on"),
         }
@@ -200,7 +226,12 @@ fn in_view(model: &mut Model, ruling: Option<Ruling>) -> Vec<Effect> {
     let changes: Vec<Change> = {
         let mut positions: Vec<usize> = inside.collect();
         positions.sort_unstable();
-        positions.into_iter().filter_map(|p| change(model, p, ruling)).collect()
+        // A suspect may be a real change of the trajectory: it is not accepted in passing.
+        let passed_over = |p: &usize| {
+            let shown = mark_at(model, *p).as_ref().and_then(state);
+            ruling == Some(Ruling::Outlier) && shown == Some(FlagState::Suspect)
+        };
+        positions.into_iter().filter(|p| !passed_over(p)).filter_map(|p| change(model, p, ruling)).collect()
     };
     if changes.is_empty() {
         model.say(Tone::Warning, "no flag in view to decide on");

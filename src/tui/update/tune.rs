@@ -94,7 +94,8 @@ pub(super) fn type_value(model: &mut Model) -> Vec<Effect> {
     let knob = model.knob();
     match list_of(knob) {
         Some(kind) => picker(model, kind),
-        None => prompt(model, PromptKind::Value, &value_text(&model.plan().setup, knob)),
+        // The value now stands in the prompt's words: what is typed takes its place.
+        None => prompt(model, PromptKind::Value, ""),
     }
 }
 

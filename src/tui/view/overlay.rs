@@ -9,7 +9,7 @@ use tui_input::Input;
 
 use super::super::keys::{Context, KEYMAP, shown};
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
-use super::super::plot::Glyphs;
+use super::super::plot::{FlagState, Glyphs};
 use super::super::update::{COMMANDS, narrowed, value_text};
 use super::{clear, fit};
 use crate::track::printable;
@@ -116,6 +116,12 @@ fn help_lines(model: &Model, filter: &str) -> Vec<Line<'static>> {
     }
     let command =
         |c: &super::super::update::Command| (format!(":{} {}", c.name.replace('|', " :"), c.takes), c.help.to_owned());
+    let mark = |s: FlagState| (model.glyphs.flag(s).to_string(), super::card::state_word(s).to_owned());
+    let mut marks: Vec<(String, String)> = FlagState::BY_URGENCY.into_iter().map(mark).collect();
+    let beyond = format!("{} {}", model.glyphs.beyond(true, false), model.glyphs.beyond(false, true));
+    marks.push((beyond, "a sample off the scale (y changes the scale)".into()));
+    marks.push(("!".into(), "decisions that the method now contradicts".into()));
+    group("marks", marks);
     group("commands", COMMANDS.iter().map(command).collect());
     lines
 }

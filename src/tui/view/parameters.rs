@@ -76,7 +76,7 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     }
     if cut {
         let hidden = knobs.len() - visible;
-        put(Line::styled(format!("{:15}  {hidden} more, 3 and arrows", ""), theme.dim), visible, body, buffer);
+        put(Line::styled(format!("{:15}  … {hidden} more", ""), theme.dim), visible, body, buffer);
     }
     for (i, (text, warn)) in lines.into_iter().enumerate() {
         let style = if warn { theme.warning } else { theme.dim };
