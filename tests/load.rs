@@ -254,3 +254,24 @@ fn a_recognised_truth_column_is_about_the_channel_that_its_name_fits() {
     let source = Source::BuiltIn { name: "test", bytes: general.as_bytes().into() };
     assert!(load(&source, &LoadOptions::default()).unwrap().truth_for("alt_m").is_some());
 }
+
+#[test]
+fn a_time_that_steps_back_or_repeats_is_still_the_time() {
+    let text = "t_s,y\n0,1\n1,2\n2,3\n3,4\n2,5\n4,6\n4,7\n5,8\n6,9\n";
+    let source = Source::BuiltIn { name: "test", bytes: text.as_bytes().into() };
+    let track = load(&source, &LoadOptions::default()).unwrap();
+    assert_eq!((track.time.name.as_str(), track.channels.len()), ("t_s", 1));
+    assert_eq!((track.faults.backward_times.count, track.faults.repeated_times.count), (1, 1));
+    // A column named `t` that goes up and down is a measurement.
+    let text = "t,y\n20.5,1\n20.4,2\n20.6,3\n20.5,4\n20.3,5\n20.6,6\n";
+    let source = Source::BuiltIn { name: "test", bytes: text.as_bytes().into() };
+    assert_eq!(load(&source, &LoadOptions::default()).unwrap().time.name, "sample");
+}
+
+#[test]
+fn a_truth_column_is_not_about_a_channel_loaded_alone_that_its_name_does_not_fit() {
+    let text = "t,vx_mps,alt_m,vx_truth_outlier\n0,1,2,0\n1,1,2,1\n2,1,2,0\n";
+    let source = Source::BuiltIn { name: "test", bytes: text.as_bytes().into() };
+    let only = LoadOptions { channels: vec!["alt_m".into()], ..LoadOptions::default() };
+    assert_eq!(load(&source, &only).unwrap().truth_for("alt_m"), None);
+}

@@ -224,3 +224,14 @@ fn the_threshold_that_the_record_suggests() {
     assert_eq!(other.0.plan().setup.settings.get("k"), Some(Value::Real(4.0)), "another knob was turned");
     assert!(other.0.advice().is_none(), "the counts of other settings are not shown");
 }
+
+#[test]
+fn settings_without_a_result_show_none() {
+    // `matched` without a rate channel; the list that asks for it is left.
+    let bench = Bench::on("demo.csv", UNICODE_DARK).keys("m matched Enter Esc");
+    let frame = bench.frame();
+    assert!(frame.contains("no result") && !frame.contains(" flagged"), "{frame}");
+    assert!(frame.contains("needs a channel that measures the rate"), "{frame}");
+    let back = bench.keys("u");
+    assert!(back.frame().contains("74 flagged"), "{}", back.frame());
+}

@@ -77,7 +77,7 @@ fn rate_channel<'a>(track: &'a Track, setup: &Setup) -> Result<Option<&'a Channe
     let Some(name) = &setup.rate else {
         return Err(Error::usage(
             format!("{id} needs a channel that measures the rate of the first"),
-            format!("name it with --rate; channels: {}", names()),
+            format!("name it with --rate, or in the workbench at `rate` (3); channels: {}", names()),
         ));
     };
     let found = track.channel(name);

@@ -270,7 +270,10 @@ fn analysed(
         Err(Error::Stopped) => {}
         Err(e) => {
             let text = e.to_string().replace("\n  ", "; ");
-            model.channels[plan].error = Some(text.clone());
+            // What other settings gave would pass for the result of these.
+            let state = &mut model.channels[plan];
+            (state.drawn, state.queue, state.flags) = (None, Vec::new(), super::plot::Flags::default());
+            state.error = Some(text.clone());
             model.say(Tone::Error, text);
         }
     }

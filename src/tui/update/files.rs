@@ -67,7 +67,8 @@ pub(super) fn written(model: &mut Model, what: Written, path: &Path, result: Res
                 crate::error::Error::Exists(path) => format!("{} is there already · {way}", path.display()),
                 other => other.to_string().replace("\n  ", "; "),
             };
-            model.say(Tone::Error, text);
+            let failed = if is_session(what) { "not saved" } else { "not written" };
+            model.say(Tone::Error, format!("{failed}: {text}"));
         }
     }
     Vec::new()

@@ -51,6 +51,7 @@ fn right_side(model: &Model) -> Line<'static> {
     let (theme, glyphs, state) = (&model.theme, model.glyphs, model.state());
     let mut spans = Vec::new();
     match &state.drawn {
+        None if state.error.is_some() => spans.push(Span::styled("no result ", theme.error)),
         None => spans.push(Span::styled("computing … ", theme.warning)),
         Some(drawn) => {
             let counts = drawn.outcome.counts;
