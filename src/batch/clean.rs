@@ -61,6 +61,7 @@ fn one(file: &Path, (shared, suggested): (&Shared, bool), setup: &Setup, target:
         summary.compare_with(&track, &analysed, reference)?;
     }
     let inputs: Vec<&Path> = track.source.path().into_iter().collect();
+    target.make_folders()?;
     let mut files = Outputs::new(outputs.force, &inputs);
     stage(&mut files, outputs, &track, &session, &analysed, &mut summary)?;
     if let Some(path) = &target.session {

@@ -63,6 +63,7 @@ fn run(path: &Path, accept_changed: bool, target: &Target) -> Result<(Summary, V
     let mut summary = Summary::of(&opened.track, &opened.session, &analysed);
     let mut inputs: Vec<&Path> = opened.track.source.path().into_iter().collect();
     inputs.push(path);
+    target.make_folders()?;
     let mut files = Outputs::new(outputs.force, &inputs);
     clean::stage(&mut files, outputs, &opened.track, &opened.session, &analysed, &mut summary)?;
     files.commit()?;

@@ -13,13 +13,26 @@ pub(super) struct Target {
     pub(super) outputs: OutputArgs,
     /// The session to write.
     pub(super) session: Option<PathBuf>,
+    /// Folders that the outputs go into, which may have to be made.
+    folders: Vec<PathBuf>,
+}
+
+impl Target {
+    /// Makes the folders that are missing: called when there is something to put into them.
+    ///
+    /// # Errors
+    /// [`Error::Io`] when a folder cannot be made.
+    pub(super) fn make_folders(&self) -> Result<()> {
+        let make = |folder: &PathBuf| std::fs::create_dir_all(folder).map_err(Error::io("make the folder", folder));
+        self.folders.iter().try_for_each(make)
+    }
 }
 
 /// Where the outputs of each input go. `name` gives the name of its cleaned file. With several inputs, and where a
-/// path ends like a folder, the outputs go into folders, which are made where they are missing.
+/// path ends like a folder, the outputs go into folders.
 ///
 /// # Errors
-/// [`Error::Usage`] when several inputs would go to one file; [`Error::Io`] when a folder cannot be made.
+/// [`Error::Usage`] when several inputs would go to one file.
 pub(super) fn targets(
     inputs: &[PathBuf],
     outputs: &OutputArgs,
@@ -36,6 +49,8 @@ pub(super) fn targets(
             ));
         }
     }
+    let folders: Vec<PathBuf> =
+        named.into_iter().flatten().filter(|p| is_folder(p, several)).map(Path::to_path_buf).collect();
     let mut taken: BTreeMap<PathBuf, &Path> = BTreeMap::new();
     let mut targets = Vec::with_capacity(inputs.len());
     for input in inputs {
@@ -62,10 +77,7 @@ pub(super) fn targets(
             output: place(outputs.output.as_deref(), cleaned)?,
             ..outputs.clone()
         };
-        targets.push(Target { outputs, session });
-    }
-    for folder in named.into_iter().flatten().filter(|p| is_folder(p, several)) {
-        std::fs::create_dir_all(folder).map_err(Error::io("make the folder", folder))?;
+        targets.push(Target { outputs, session, folders: folders.clone() });
     }
     Ok(targets)
 }
@@ -110,6 +122,8 @@ mod tests {
         assert_eq!(targets[1].outputs.output, Some(out.join("b.csv.gz")), "packed as it was");
         assert_eq!(targets[1].outputs.flags, Some(flags.join("b.flags.csv")));
         assert_eq!(targets[0].session, Some(flags.join("a.toml")));
+        assert!(!out.exists(), "made only when there is something to put into it");
+        targets[0].make_folders().unwrap();
         assert!(out.is_dir());
     }
 
