@@ -22,7 +22,7 @@ pub use find::Found;
 pub(super) use find::counted;
 
 /// How long a frame may wait for the disk: what the screen shows has been written, unless that takes longer.
-const PATIENCE: Duration = Duration::from_millis(10);
+const PATIENCE: Duration = Duration::from_millis(100);
 
 /// The journal of a running workbench.
 pub(super) struct Journal {
