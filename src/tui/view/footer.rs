@@ -26,6 +26,8 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     }
     // Help and quit keep their place at the right, whatever is cut.
     let right = match model.overlay {
+        // After a first key, these would be its second.
+        Overlay::None if model.prefix.is_some() => Vec::new(),
         Overlay::None => vec![(":".to_owned(), ""), ("?".to_owned(), "help"), ("q".to_owned(), "quit")],
         _ => Vec::new(),
     };
@@ -51,7 +53,7 @@ fn push(model: &Model, spans: &mut Vec<Span<'static>>, (key, word): (String, &st
 
 /// What a key after a prefix does, up to what all of them share.
 fn in_few_words(help: &'static str) -> &'static str {
-    let end = [" flags", " decisions", " sample"].iter().filter_map(|w| help.find(w)).min();
+    let end = [" flags", " decisions", " sample", " ("].iter().filter_map(|w| help.find(w)).min();
     &help[..end.unwrap_or(help.len())]
 }
 
