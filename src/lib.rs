@@ -10,6 +10,7 @@ pub mod job;
 pub mod math;
 pub mod method;
 pub mod param;
+pub mod plot;
 pub mod repair;
 pub mod report;
 pub mod review;

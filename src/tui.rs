@@ -31,7 +31,6 @@ use theme::Theme;
 
 pub mod action;
 pub mod advice;
-pub mod drawn;
 mod input;
 pub mod journal;
 pub mod keys;

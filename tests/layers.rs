@@ -19,6 +19,7 @@ const LAYERS: &[&[&str]] = &[
     &["score"],
     &["experiment"],
     &["job"],
+    &["plot"],
     &["report"],
     &["cli", "batch", "stream"],
 ];

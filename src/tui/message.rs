@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use ratatui::crossterm::event::KeyEvent;
 
 use super::advice::Advice;
-use super::drawn::Drawn;
 use crate::error::{Error, Result};
+use crate::plot::Drawn;
 
 /// Something that happened.
 #[derive(Debug)]

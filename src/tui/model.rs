@@ -9,11 +9,11 @@ use tui_input::Input;
 
 use super::action::Panel;
 use super::advice::Advice;
-use super::drawn::Drawn;
 use super::journal::Found;
 use super::plot::{Axis, Flags, Glyphs, View};
 use super::theme::Theme;
 use crate::param::{Param, Settings};
+use crate::plot::Drawn;
 use crate::repair;
 use crate::review::History;
 use crate::session::{Edit, Plan, Session};

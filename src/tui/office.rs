@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use crossbeam_channel::Sender;
 
-use super::drawn::Drawn;
 use super::message::{Message, Written};
 use super::model::Model;
 use crate::error::{Error, Result};
 use crate::job::Worker;
+use crate::plot::Drawn;
 use crate::review::Decisions;
 use crate::session::{Analysed, Detection, Session, Setup, detect, detect_together, document, settle, write_cleaned};
 use crate::stop::Stop;

@@ -39,36 +39,25 @@
 //! assert!(buffer.content().iter().any(|cell| cell.symbol() == "●"));
 //! ```
 
-mod columns;
-mod dots;
-mod flags;
 mod glyphs;
-mod labels;
-mod locate;
-mod marks;
 mod overview;
 mod paint;
-mod pyramid;
 mod rail;
 mod residual;
-mod scale;
-mod stroke;
 mod ticks;
 mod trace;
-mod view;
 
-pub use columns::{ColumnSummary, Columns, Curve, Grid, Trace};
-pub use flags::{Flag, FlagState, Flags};
+pub use crate::plot::{
+    Axis, ColumnSummary, Columns, Curve, Flag, FlagState, Flags, Grid, LABEL_WIDTH, Pyramid, Span, Trace, ValueLabels,
+    View, YFit, YScale, widened,
+};
+use crate::plot::{columns, dots, flags, labels, pyramid, scale, view};
 pub use glyphs::Glyphs;
-pub use labels::{LABEL_WIDTH, ValueLabels};
 pub use overview::Overview;
-pub use pyramid::{Pyramid, Span};
 pub use rail::FlagRail;
 pub use residual::ResidualPlot;
-pub use scale::{YFit, YScale, widened};
 pub use ticks::{AxisLabels, TickSteps, tick_step};
 pub use trace::{Cursor, Layers, TracePlot};
-pub use view::{Axis, View};
 
 /// Columns left of a plot: labels of the y axis, and the axis.
 pub const GUTTER: u16 = LABEL_WIDTH as u16 + 1;

@@ -251,7 +251,7 @@ fn analysed(
     model: &mut Model,
     generation: u64,
     plan: usize,
-    result: crate::error::Result<Box<super::drawn::Drawn>>,
+    result: crate::error::Result<Box<crate::plot::Drawn>>,
 ) -> Vec<Effect> {
     if model.awaited != Some(generation) {
         return Vec::new();

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::super::drawn::Drawn;
 use super::super::message::{Effect, Written};
 use super::super::model::{Model, Sort, Tone};
 use super::super::plot::Flags;
 use super::is_session;
 use crate::error::Result;
 use crate::method::Verdict;
+use crate::plot::Drawn;
 use crate::track::Source;
 
 /// Where a session on this record is saved when nobody says where: in the current folder, since the record's own

@@ -1,11 +1,11 @@
 //! Walking the flags and deciding on them.
 
 use super::super::action::Action;
-use super::super::drawn::state;
 use super::super::message::Effect;
 use super::super::model::{Model, PromptKind, Sort, Tone};
 use super::super::plot::{Axis, FlagState};
 use super::{commit, navigate, prompt};
+use crate::plot::state;
 use crate::review::{Change, Decision, Ruling};
 use crate::session::{Edit, Mark};
 

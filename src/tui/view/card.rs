@@ -6,13 +6,13 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
-use super::super::drawn::{Drawn, state};
 use super::super::model::Model;
 use super::super::plot::{FlagState, Glyphs};
 use super::super::update::mark_at;
 use super::queue::ratio_text;
 use super::{clear, heading, several_days, short};
 use crate::method::{Direction, Verdict};
+use crate::plot::{Drawn, state};
 use crate::session::Mark;
 use crate::track::{Series, printable};
 

@@ -7,11 +7,11 @@ use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
 use super::super::advice::Advice;
-use super::super::drawn::Drawn;
 use super::super::model::{Knob, Model};
 use super::super::update::value_text;
 use super::{clear, fit, heading, short, thousands};
 use crate::param::Value;
+use crate::plot::Drawn;
 use crate::track::printable;
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {

@@ -8,7 +8,6 @@ use ratatui::text::Span as Words;
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
-use super::super::drawn::Drawn;
 use super::super::model::{Layers, Model, YMode};
 use super::super::plot::{
     self, Axis, AxisLabels, Columns, Cursor, Curve, FlagRail, Flags, Grid, Overview, Pyramid, ResidualPlot, Span,
@@ -16,6 +15,7 @@ use super::super::plot::{
 };
 use super::{heading, short, thousands};
 use crate::method::shared::MAX_GAP;
+use crate::plot::Drawn;
 use crate::track::{Series, TimeFormat};
 
 /// What the plots of one frame share.

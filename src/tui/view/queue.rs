@@ -6,11 +6,11 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
-use super::super::drawn::state;
 use super::super::model::{Model, Sort};
 use super::super::plot::FlagState;
 use super::super::update::mark_at;
 use super::{clear, heading, several_days, thousands};
+use crate::plot::state;
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     clear(area, buffer);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::plot::{Flag, FlagState, Pyramid, Span};
+use super::{Flag, FlagState, Pyramid, Span};
 use crate::method::Verdict;
 use crate::param::Value;
 use crate::review::Ruling;

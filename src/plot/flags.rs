@@ -53,13 +53,13 @@ pub struct Flags {
 
 /// The flags of one state, in order of position.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct FlagList {
-    pub(super) positions: Vec<u32>,
-    pub(super) y: Vec<f64>,
-    pub(super) pyramid: Pyramid,
+pub(crate) struct FlagList {
+    pub(crate) positions: Vec<u32>,
+    pub(crate) y: Vec<f64>,
+    pub(crate) pyramid: Pyramid,
     /// Of each block of the pyramid, the highest value of its lower half and the lowest of its upper half. Wild
     /// points lie on both sides of a curve: this tells what lies between them.
-    pub(super) inner: Vec<(f64, f64)>,
+    pub(crate) inner: Vec<(f64, f64)>,
 }
 
 impl Flags {
@@ -98,18 +98,18 @@ impl Flags {
 
     /// Lowest and highest flagged value in a range of positions.
     #[must_use]
-    pub(super) fn span_over(&self, range: &Range<usize>) -> Span {
+    pub(crate) fn span_over(&self, range: &Range<usize>) -> Span {
         self.lists.iter().fold(Span::EMPTY, |all, list| {
             all.union(list.pyramid.span_over(|i| Span::at(list.y[i]), list.within(range)))
         })
     }
 
     /// Flagged values in a range of positions, state by state.
-    pub(super) fn values_in(&self, range: &Range<usize>) -> impl Iterator<Item = f64> {
+    pub(crate) fn values_in(&self, range: &Range<usize>) -> impl Iterator<Item = f64> {
         self.lists.iter().flat_map(|list| list.y[list.within(range)].iter().copied())
     }
 
-    pub(super) fn list(&self, state: FlagState) -> &FlagList {
+    pub(crate) fn list(&self, state: FlagState) -> &FlagList {
         &self.lists[state.index()]
     }
 }
@@ -126,7 +126,7 @@ fn inner(values: &[f64]) -> (f64, f64) {
 
 impl FlagList {
     /// The part of the list whose positions lie in `range`.
-    pub(super) fn within(&self, range: &Range<usize>) -> Range<usize> {
+    pub(crate) fn within(&self, range: &Range<usize>) -> Range<usize> {
         let first = self.positions.partition_point(|&p| (p as usize) < range.start);
         let end = first + self.positions[first..].partition_point(|&p| (p as usize) < range.end);
         first..end

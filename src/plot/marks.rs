@@ -9,17 +9,17 @@ use super::pyramid::{Span, Visitor};
 use super::scale::{DOTS_PER_ROW, YScale};
 
 /// Flags of a grid.
-pub(super) struct Marks {
-    pub(super) summaries: Vec<ColumnSummary>,
-    pub(super) dots: Dots,
+pub(crate) struct Marks {
+    pub(crate) summaries: Vec<ColumnSummary>,
+    pub(crate) dots: Dots,
     /// The most urgent flag of each cell, row by row.
-    pub(super) cells: Vec<Option<FlagState>>,
+    pub(crate) cells: Vec<Option<FlagState>>,
     width: usize,
     scale: YScale,
 }
 
 impl Marks {
-    pub(super) fn new(flags: &Flags, grid: Grid, starts: &[usize], scale: YScale) -> Self {
+    pub(crate) fn new(flags: &Flags, grid: Grid, starts: &[usize], scale: YScale) -> Self {
         let width = usize::from(grid.width);
         let mut marks = Self {
             summaries: vec![ColumnSummary::default(); width],

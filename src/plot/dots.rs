@@ -3,21 +3,21 @@
 use super::scale::DOTS_PER_ROW;
 
 /// Columns of dots in a cell.
-pub(super) const DOTS_PER_COLUMN: usize = 2;
+pub(crate) const DOTS_PER_COLUMN: usize = 2;
 
 /// Bits of the braille pattern, by column and row of the dot in its cell.
 const BITS: [[u8; DOTS_PER_ROW]; DOTS_PER_COLUMN] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
 /// Dots of a plot of `width` by `height` cells.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Dots {
+pub(crate) struct Dots {
     width: usize,
     height: usize,
     cells: Vec<u8>,
 }
 
 impl Dots {
-    pub(super) fn new(width: u16, height: u16) -> Self {
+    pub(crate) fn new(width: u16, height: u16) -> Self {
         let (width, height) = (usize::from(width), usize::from(height));
         Self { width, height, cells: vec![0; width * height] }
     }
@@ -34,7 +34,7 @@ impl Dots {
 
     /// Lights a dot; one outside the plot is passed over.
     #[inline]
-    pub(super) fn set(&mut self, column: i32, row: i32) {
+    pub(crate) fn set(&mut self, column: i32, row: i32) {
         if column >= 0 && row >= 0 && column < self.columns() && row < self.rows() {
             let (column, row) = (column as usize, row as usize);
             let cell = row / DOTS_PER_ROW * self.width + column / DOTS_PER_COLUMN;
@@ -43,7 +43,7 @@ impl Dots {
     }
 
     /// Lights a column of dots between two rows, both included.
-    pub(super) fn fill(&mut self, column: i32, top: i32, bottom: i32) {
+    pub(crate) fn fill(&mut self, column: i32, top: i32, bottom: i32) {
         for row in top.max(0)..=bottom.min(self.rows() - 1) {
             self.set(column, row);
         }
@@ -51,7 +51,7 @@ impl Dots {
 
     /// The pattern of a cell; 0 outside the plot.
     #[inline]
-    pub(super) fn mask(&self, column: usize, row: usize) -> u8 {
+    pub(crate) fn mask(&self, column: usize, row: usize) -> u8 {
         if column >= self.width {
             return 0;
         }
@@ -60,7 +60,7 @@ impl Dots {
 
     /// A straight line between two points, given in columns and rows of dots, ends included. It may reach out of the
     /// plot as far as it likes.
-    pub(super) fn line(&mut self, from: (f64, f64), to: (f64, f64)) {
+    pub(crate) fn line(&mut self, from: (f64, f64), to: (f64, f64)) {
         let last = (f64::from(self.columns()), f64::from(self.rows()));
         let Some((from, to)) = clipped(from, to, last) else { return };
         let (mut x, mut y) = (from.0.floor() as i32, from.1.floor() as i32);

@@ -88,24 +88,24 @@ impl ColumnSummary {
 /// while it stays.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Columns {
-    pub(super) grid: Grid,
-    pub(super) scale: YScale,
+    pub(crate) grid: Grid,
+    pub(crate) scale: YScale,
     /// First position of each column of dots, and the end of the last one.
-    pub(super) starts: Vec<usize>,
-    pub(super) summaries: Vec<ColumnSummary>,
+    pub(crate) starts: Vec<usize>,
+    pub(crate) summaries: Vec<ColumnSummary>,
     /// Columns of cells that lie in a stretch of lost samples.
-    pub(super) gaps: Vec<bool>,
+    pub(crate) gaps: Vec<bool>,
     /// Columns of cells with kept samples above and below the y range.
-    pub(super) raw_beyond: Vec<(bool, bool)>,
-    pub(super) raw: Dots,
-    pub(super) expected: Dots,
-    pub(super) band: Dots,
-    pub(super) repaired: Dots,
-    pub(super) flag_dots: Dots,
+    pub(crate) raw_beyond: Vec<(bool, bool)>,
+    pub(crate) raw: Dots,
+    pub(crate) expected: Dots,
+    pub(crate) band: Dots,
+    pub(crate) repaired: Dots,
+    pub(crate) flag_dots: Dots,
     /// The most urgent flag drawn in each cell, row by row.
-    pub(super) flag_cells: Vec<Option<FlagState>>,
+    pub(crate) flag_cells: Vec<Option<FlagState>>,
     /// True when flags are so few that each cell with one shows a marker.
-    pub(super) sparse: bool,
+    pub(crate) sparse: bool,
 }
 
 impl Columns {
@@ -182,7 +182,7 @@ impl Columns {
     }
 
     /// The flag drawn in a cell.
-    pub(super) fn flag_cell(&self, column: usize, row: usize) -> Option<FlagState> {
+    pub(crate) fn flag_cell(&self, column: usize, row: usize) -> Option<FlagState> {
         if column >= usize::from(self.grid.width) {
             return None;
         }
@@ -191,7 +191,7 @@ impl Columns {
 }
 
 /// First position of each column of dots over `view`, and the end of the last, which holds the right edge too.
-pub(super) fn column_starts(axis: Axis<'_>, view: View, width: u16) -> Vec<usize> {
+pub(crate) fn column_starts(axis: Axis<'_>, view: View, width: u16) -> Vec<usize> {
     let columns = usize::from(width) * DOTS_PER_COLUMN;
     let span = view.width();
     if columns == 0 || span == 0.0 {

@@ -10,7 +10,7 @@ use super::view::{Axis, View};
 const OUTSIDE: usize = 64;
 
 /// Draws curves on one grid.
-pub(super) struct Stroke<'a> {
+pub(crate) struct Stroke<'a> {
     axis: Axis<'a>,
     view: View,
     starts: &'a [usize],
@@ -19,18 +19,18 @@ pub(super) struct Stroke<'a> {
 }
 
 impl<'a> Stroke<'a> {
-    pub(super) fn new(axis: Axis<'a>, grid: Grid, starts: &'a [usize], scale: YScale, gap: f64) -> Self {
+    pub(crate) fn new(axis: Axis<'a>, grid: Grid, starts: &'a [usize], scale: YScale, gap: f64) -> Self {
         Self { axis, view: grid.view, starts, scale, gap }
     }
 
     /// The span of a curve in each column of dots.
-    pub(super) fn spans(&self, curve: Option<&Curve<'_>>) -> Vec<Span> {
+    pub(crate) fn spans(&self, curve: Option<&Curve<'_>>) -> Vec<Span> {
         let Some(curve) = curve else { return Vec::new() };
         self.starts.windows(2).map(|edges| curve.pyramid.span_over(curve.span, edges[0]..edges[1])).collect()
     }
 
     /// Draws a curve, of whose spans `part` picks the ends that are drawn.
-    pub(super) fn draw(&self, dots: &mut Dots, curve: Option<&Curve<'_>>, spans: &[Span], part: impl Fn(Span) -> Span) {
+    pub(crate) fn draw(&self, dots: &mut Dots, curve: Option<&Curve<'_>>, spans: &[Span], part: impl Fn(Span) -> Span) {
         let Some(curve) = curve else { return };
         // The column of the last value drawn, with its rows; none at the start and after a gap.
         let mut previous: Option<(usize, i32, i32)> = None;
@@ -70,7 +70,7 @@ impl<'a> Stroke<'a> {
     }
 
     /// Draws the spans of the columns, not joined.
-    pub(super) fn fill(&self, dots: &mut Dots, spans: &[Span]) {
+    pub(crate) fn fill(&self, dots: &mut Dots, spans: &[Span]) {
         for (column, span) in spans.iter().enumerate() {
             if !span.is_empty() {
                 dots.fill(column as i32, self.scale.dot_row(span.high), self.scale.dot_row(span.low));
@@ -79,14 +79,14 @@ impl<'a> Stroke<'a> {
     }
 
     /// Which columns of cells have values above and below the y range.
-    pub(super) fn beyond(&self, spans: &[Span]) -> Vec<(bool, bool)> {
+    pub(crate) fn beyond(&self, spans: &[Span]) -> Vec<(bool, bool)> {
         let over = |pair: &[Span]| pair.iter().fold(Span::EMPTY, |all, span| all.union(*span));
         let beyond = |span: Span| (span.high > self.scale.high(), span.low < self.scale.low());
         spans.chunks(DOTS_PER_COLUMN).map(|pair| beyond(over(pair))).collect()
     }
 
     /// Which columns of cells lie in a stretch of lost samples.
-    pub(super) fn gaps(&self) -> Vec<bool> {
+    pub(crate) fn gaps(&self) -> Vec<bool> {
         let mut lost = vec![false; self.starts.len().saturating_sub(1)];
         let mut first_empty = 0;
         for column in 0..lost.len() {

@@ -85,10 +85,10 @@ fn round_offset(low: f64, span: f64) -> f64 {
 }
 
 /// Steps within a factor of ten that read well.
-pub(super) const DECIMAL: [f64; 3] = [1.0, 2.0, 5.0];
+pub(crate) const DECIMAL: [f64; 3] = [1.0, 2.0, 5.0];
 
 /// The smallest of `steps`, times a power of ten, that is at least `least`.
-pub(super) fn round_step(least: f64, steps: &[f64]) -> f64 {
+pub(crate) fn round_step(least: f64, steps: &[f64]) -> f64 {
     if !(least.is_finite() && least > 0.0) {
         return 1.0;
     }

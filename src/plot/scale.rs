@@ -5,7 +5,7 @@ use super::pyramid::Span;
 use super::view::View;
 
 /// Rows of dots in a cell.
-pub(super) const DOTS_PER_ROW: usize = 4;
+pub(crate) const DOTS_PER_ROW: usize = 4;
 
 /// Share of the range left free above and below a fitted curve.
 const MARGIN: f64 = 0.04;
@@ -115,7 +115,7 @@ impl YScale {
     }
 
     /// Rows of dots.
-    pub(super) fn rows(&self) -> i32 {
+    pub(crate) fn rows(&self) -> i32 {
         self.rows
     }
 
@@ -127,19 +127,19 @@ impl YScale {
 
     /// True when the value is in range.
     #[inline]
-    pub(super) fn shows(&self, y: f64) -> bool {
+    pub(crate) fn shows(&self, y: f64) -> bool {
         self.low <= y && y <= self.high && self.rows > 0
     }
 
     /// Height in rows of dots below the top, as a real number.
     #[inline]
-    pub(super) fn depth(&self, y: f64) -> f64 {
+    pub(crate) fn depth(&self, y: f64) -> f64 {
         (self.half_high - y * 0.5) * self.rows_per_half
     }
 
     /// The row of dots of a value; -1 above the range, the number of rows below it.
     #[inline]
-    pub(super) fn dot_row(&self, y: f64) -> i32 {
+    pub(crate) fn dot_row(&self, y: f64) -> i32 {
         if y > self.high {
             return -1;
         }

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 /// Samples in a block of the lowest level.
-pub(super) const BLOCK: usize = 64;
+pub(crate) const BLOCK: usize = 64;
 /// Nodes of one level under a node of the next.
 const FAN_OUT: usize = 8;
 
@@ -50,7 +50,7 @@ impl Span {
 }
 
 /// Looks at values of a pyramid and says which parts are worth a closer look.
-pub(super) trait Visitor {
+pub(crate) trait Visitor {
     /// Is any value of a node with these extremes still of interest?
     fn enter(&mut self, span: Span) -> bool;
     /// The same for a node of the lowest level, of which a visitor may know more.
@@ -148,7 +148,7 @@ impl Pyramid {
     }
 
     /// Shows a visitor the positions of `range`, from the coarse nodes down.
-    pub(super) fn walk(&self, range: Range<usize>, visitor: &mut impl Visitor) {
+    pub(crate) fn walk(&self, range: Range<usize>, visitor: &mut impl Visitor) {
         let range = range.start..range.end.min(self.len);
         if let Some(top) = self.levels.len().checked_sub(1) {
             let size = node_size(top);

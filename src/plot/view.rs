@@ -56,7 +56,7 @@ impl<'a> Axis<'a> {
 
     /// The first position from `hint` on whose sample is not `before`. Steady sampling makes a guess near `x` good:
     /// the search starts there and widens.
-    pub(super) fn first_where(self, x: f64, hint: usize, before: impl Fn(f64) -> bool) -> usize {
+    pub(crate) fn first_where(self, x: f64, hint: usize, before: impl Fn(f64) -> bool) -> usize {
         let n = self.len();
         let hint = hint.min(n);
         let share = (x - self.x(hint)) / (self.x(n.saturating_sub(1)) - self.x(hint));
