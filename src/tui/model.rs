@@ -1,23 +1,25 @@
 //! The state of the workbench. `update` changes it, `view` draws it, nothing else touches it.
 
-use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use tui_input::Input;
 
 use super::action::Panel;
 use super::advice::Advice;
-use super::journal::Found;
-use super::plot::{Axis, Flags, Glyphs, View};
+use super::plot::Glyphs;
 use super::theme::Theme;
-use crate::param::{Param, Settings};
-use crate::plot::Drawn;
+use crate::param::Param;
 use crate::repair;
 use crate::review::History;
 use crate::session::{Edit, Plan, Session};
-use crate::track::{Channel, Samples, Series, Track};
+use crate::track::{Channel, Series, Track};
+
+mod channel;
+mod overlay;
+
+pub use channel::{ChannelState, Layers, YMode};
+pub use overlay::{Overlay, Picker, PickerKind, Prompt, PromptKind};
 
 /// Everything on the screen comes from here.
 #[derive(Debug)]
@@ -73,69 +75,6 @@ pub struct Touched {
     pub rows: Vec<u32>,
 }
 
-/// What the workbench keeps for a channel, shown or not.
-#[derive(Debug)]
-pub struct ChannelState {
-    /// Index of the channel in the track.
-    pub channel: usize,
-    /// Its present samples.
-    pub samples: Arc<Samples>,
-    /// The latest result, if there is one yet.
-    pub drawn: Option<Arc<Drawn>>,
-    /// Its flags, for drawing.
-    pub flags: Flags,
-    /// Positions of the flags in the order of the queue.
-    pub queue: Vec<u32>,
-    /// The counts along the multiplier, for the setup they were found for.
-    pub advice: Option<Advice>,
-    /// True when the result is not that of the session as it is now.
-    pub stale: bool,
-    /// Why there is no result.
-    pub error: Option<String>,
-    /// True when somebody worked on it: it goes into the saved session.
-    pub touched: bool,
-    /// The part of the x axis in view.
-    pub view: View,
-    /// Views before it.
-    pub views: Vec<View>,
-    /// How the y range is chosen.
-    pub y_fit: YMode,
-    /// Which layers are drawn.
-    pub layers: Layers,
-    /// Position of the sample under the cursor.
-    pub cursor: usize,
-    /// Index of the active knob.
-    pub knob: usize,
-    /// Settings of methods that were tuned and left, by id.
-    pub tuned: HashMap<&'static str, Settings>,
-}
-
-/// How the y range is chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum YMode {
-    /// From the samples that are kept: outliers do not squash the curve.
-    #[default]
-    Kept,
-    /// From all samples.
-    All,
-    /// From the middle 99.8 % of the samples.
-    Robust,
-}
-
-/// Which layers are drawn over the curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Layers {
-    /// The band of expected value and tolerance, and repaired values.
-    #[default]
-    Band,
-    /// The expected value alone, and repaired values.
-    Expected,
-    /// The curve alone.
-    Raw,
-    /// The record after repair: outliers in their new place.
-    After,
-}
-
 /// Order of the queue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Sort {
@@ -146,72 +85,6 @@ pub enum Sort {
     Ratio,
     /// Those nobody decided on first.
     State,
-}
-
-/// What lies over the panels.
-#[derive(Debug, Default)]
-pub enum Overlay {
-    /// Nothing.
-    #[default]
-    None,
-    /// The help, from this line on, filtered by what was typed.
-    Help(Input, usize),
-    /// A list to choose from.
-    Picker(Picker),
-    /// A line to type in.
-    Prompt(Prompt),
-    /// Quit although something is not saved?
-    ConfirmQuit,
-    /// Take back in what an earlier workbench left? The newest first.
-    Recover(Vec<Found>),
-}
-
-/// A list to choose from.
-#[derive(Debug)]
-pub struct Picker {
-    /// What is chosen.
-    pub kind: PickerKind,
-    /// What was typed to narrow it.
-    pub filter: Input,
-    /// Index of the choice among those that fit.
-    pub choice: usize,
-}
-
-/// What a picker chooses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PickerKind {
-    /// A method.
-    Method,
-    /// A repair.
-    Repair,
-    /// A channel.
-    Channel,
-    /// The channel that measures the rate.
-    Rate,
-}
-
-/// A line to type in.
-#[derive(Debug)]
-pub struct Prompt {
-    /// What it is for.
-    pub kind: PromptKind,
-    /// What has been typed.
-    pub input: Input,
-    /// What is wrong with it.
-    pub error: Option<String>,
-}
-
-/// What a prompt is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PromptKind {
-    /// A command after `:`.
-    Command,
-    /// Where to jump.
-    Jump,
-    /// The value of the active knob.
-    Value,
-    /// A note on the decision about this row (from 0).
-    Note(u32),
 }
 
 /// Something said to the user in the footer.
@@ -364,34 +237,6 @@ impl Knob {
             Self::Rate => "rate",
             Self::Repair(p) if p.key == repair::METHOD.key => "repair",
             Self::Detection(p) | Self::Repair(p) => p.key,
-        }
-    }
-}
-
-impl ChannelState {
-    fn new(track: &Track, plan: &Plan, touched: bool) -> Self {
-        let channel = track.channels.iter().position(|c| c.name == plan.channel).unwrap_or(0);
-        let samples = Samples::of(&track.channels[channel], &track.time);
-        let view = View::whole(Axis::Time(&samples.series(&track.channels[channel], &track.time).t));
-        let k = plan.setup.settings.mattering().position(|(p, _)| matches!(p.key, "k" | "c"));
-        Self {
-            channel,
-            samples: Arc::new(samples),
-            drawn: None,
-            flags: Flags::default(),
-            queue: Vec::new(),
-            advice: None,
-            stale: true,
-            error: None,
-            touched,
-            view,
-            views: Vec::new(),
-            y_fit: YMode::default(),
-            layers: Layers::default(),
-            cursor: 0,
-            // The multiplier is what is turned most; the first rows are the method (and its rate).
-            knob: k.map_or(0, |k| k + 1 + usize::from(plan.setup.method.about().needs_rate)),
-            tuned: HashMap::new(),
         }
     }
 }

@@ -1,0 +1,102 @@
+//! What the workbench keeps for each channel.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::super::advice::Advice;
+use super::super::plot::{Axis, Flags, View};
+use crate::param::Settings;
+use crate::plot::Drawn;
+use crate::session::Plan;
+use crate::track::{Samples, Track};
+
+/// What the workbench keeps for a channel, shown or not.
+#[derive(Debug)]
+pub struct ChannelState {
+    /// Index of the channel in the track.
+    pub channel: usize,
+    /// Its present samples.
+    pub samples: Arc<Samples>,
+    /// The latest result, if there is one yet.
+    pub drawn: Option<Arc<Drawn>>,
+    /// Its flags, for drawing.
+    pub flags: Flags,
+    /// Positions of the flags in the order of the queue.
+    pub queue: Vec<u32>,
+    /// The counts along the multiplier, for the setup they were found for.
+    pub advice: Option<Advice>,
+    /// True when the result is not that of the session as it is now.
+    pub stale: bool,
+    /// Why there is no result.
+    pub error: Option<String>,
+    /// True when somebody worked on it: it goes into the saved session.
+    pub touched: bool,
+    /// The part of the x axis in view.
+    pub view: View,
+    /// Views before it.
+    pub views: Vec<View>,
+    /// How the y range is chosen.
+    pub y_fit: YMode,
+    /// Which layers are drawn.
+    pub layers: Layers,
+    /// Position of the sample under the cursor.
+    pub cursor: usize,
+    /// Index of the active knob.
+    pub knob: usize,
+    /// Settings of methods that were tuned and left, by id.
+    pub tuned: HashMap<&'static str, Settings>,
+}
+
+/// How the y range is chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum YMode {
+    /// From the samples that are kept: outliers do not squash the curve.
+    #[default]
+    Kept,
+    /// From all samples.
+    All,
+    /// From the middle 99.8 % of the samples.
+    Robust,
+}
+
+/// Which layers are drawn over the curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Layers {
+    /// The band of expected value and tolerance, and repaired values.
+    #[default]
+    Band,
+    /// The expected value alone, and repaired values.
+    Expected,
+    /// The curve alone.
+    Raw,
+    /// The record after repair: outliers in their new place.
+    After,
+}
+
+impl ChannelState {
+    pub(super) fn new(track: &Track, plan: &Plan, touched: bool) -> Self {
+        let channel = track.channels.iter().position(|c| c.name == plan.channel).unwrap_or(0);
+        let samples = Samples::of(&track.channels[channel], &track.time);
+        let view = View::whole(Axis::Time(&samples.series(&track.channels[channel], &track.time).t));
+        let k = plan.setup.settings.mattering().position(|(p, _)| matches!(p.key, "k" | "c"));
+        Self {
+            channel,
+            samples: Arc::new(samples),
+            drawn: None,
+            flags: Flags::default(),
+            queue: Vec::new(),
+            advice: None,
+            stale: true,
+            error: None,
+            touched,
+            view,
+            views: Vec::new(),
+            y_fit: YMode::default(),
+            layers: Layers::default(),
+            cursor: 0,
+            // The multiplier is what is turned most; the first rows are the method (and its rate).
+            knob: k.map_or(0, |k| k + 1 + usize::from(plan.setup.method.about().needs_rate)),
+            tuned: HashMap::new(),
+        }
+    }
+}

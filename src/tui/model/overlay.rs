@@ -1,0 +1,71 @@
+//! What lies over the panels.
+
+use tui_input::Input;
+
+use super::super::journal::Found;
+
+/// What lies over the panels.
+#[derive(Debug, Default)]
+pub enum Overlay {
+    /// Nothing.
+    #[default]
+    None,
+    /// The help, from this line on, filtered by what was typed.
+    Help(Input, usize),
+    /// A list to choose from.
+    Picker(Picker),
+    /// A line to type in.
+    Prompt(Prompt),
+    /// Quit although something is not saved?
+    ConfirmQuit,
+    /// Take back in what an earlier workbench left? The newest first.
+    Recover(Vec<Found>),
+}
+
+/// A list to choose from.
+#[derive(Debug)]
+pub struct Picker {
+    /// What is chosen.
+    pub kind: PickerKind,
+    /// What was typed to narrow it.
+    pub filter: Input,
+    /// Index of the choice among those that fit.
+    pub choice: usize,
+}
+
+/// What a picker chooses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PickerKind {
+    /// A method.
+    Method,
+    /// A repair.
+    Repair,
+    /// A channel.
+    Channel,
+    /// The channel that measures the rate.
+    Rate,
+}
+
+/// A line to type in.
+#[derive(Debug)]
+pub struct Prompt {
+    /// What it is for.
+    pub kind: PromptKind,
+    /// What has been typed.
+    pub input: Input,
+    /// What is wrong with it.
+    pub error: Option<String>,
+}
+
+/// What a prompt is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PromptKind {
+    /// A command after `:`.
+    Command,
+    /// Where to jump.
+    Jump,
+    /// The value of the active knob.
+    Value,
+    /// A note on the decision about this row (from 0).
+    Note(u32),
+}
