@@ -136,6 +136,18 @@ impl<E: Clone> History<E> {
         self.done.last()
     }
 
+    /// The edits that are in force, the oldest first.
+    #[must_use]
+    pub fn done(&self) -> &[E] {
+        &self.done
+    }
+
+    /// The edits that were taken back, the one that is redone first last.
+    #[must_use]
+    pub fn undone(&self) -> &[E] {
+        &self.undone
+    }
+
     /// How many edits are in force.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -7,12 +7,13 @@ use crate::error::{Error, Result, nearest};
 use crate::method::{self, METHODS, Method};
 use crate::param::{Settings, find};
 use crate::repair;
-use crate::review::{Change, Decisions};
+use crate::review::Decisions;
 use crate::track::{LoadOptions, Source, Track};
 
 mod analysis;
 mod cleaned;
 mod document;
+mod edit;
 pub mod journal;
 mod replay;
 mod save;
@@ -21,6 +22,7 @@ pub mod sweep;
 pub use analysis::{Counts, Detection, Fill, Mark, Outcome, Place, Run, detect, detect_together, settle};
 pub use cleaned::{changes, clean_sha256, write_cleaned};
 pub use document::{read, render};
+pub use edit::Edit;
 pub use replay::{Analysed, Opened, check, open, open_all};
 pub use save::document;
 
@@ -84,27 +86,6 @@ pub struct Recorded {
     pub flagged: usize,
     /// SHA-256 of the cleaned file.
     pub clean_sha256: String,
-}
-
-/// A change of the session that can be undone.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Edit {
-    /// Decisions about the channel of a plan.
-    Decide {
-        /// Index of the plan.
-        plan: usize,
-        /// The decisions, all made at once.
-        changes: Vec<Change>,
-    },
-    /// Another method, setting or repair for the channel of a plan.
-    Setup {
-        /// Index of the plan.
-        plan: usize,
-        /// What it was.
-        before: Box<Setup>,
-        /// What it is.
-        after: Box<Setup>,
-    },
 }
 
 impl std::fmt::Debug for Setup {
@@ -218,30 +199,6 @@ impl Session {
             },
             plans: track.channels.iter().map(|c| plan(&c.name)).collect(),
             result: None,
-        }
-    }
-
-    /// Makes an edit.
-    pub fn apply(&mut self, edit: &Edit) {
-        self.step(edit, true);
-    }
-
-    /// Takes an edit back.
-    pub fn revert(&mut self, edit: &Edit) {
-        self.step(edit, false);
-    }
-
-    fn step(&mut self, edit: &Edit, forth: bool) {
-        let (Edit::Decide { plan, .. } | Edit::Setup { plan, .. }) = edit;
-        let Some(plan) = self.plans.get_mut(*plan) else { return };
-        match edit {
-            Edit::Decide { changes, .. } => {
-                for change in changes {
-                    let to = if forth { &change.after } else { &change.before };
-                    plan.decisions.set(change.row, to.clone());
-                }
-            }
-            Edit::Setup { before, after, .. } => plan.setup = Setup::clone(if forth { after } else { before }),
         }
     }
 }

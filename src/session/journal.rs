@@ -58,6 +58,8 @@ pub enum Entry {
         /// Rows (from 0) with what is decided about them now, if anything.
         decisions: Vec<(u32, Option<Decision>)>,
     },
+    /// What one edit changed in several places: all of it comes back, or none.
+    Several(Vec<Entry>),
 }
 
 impl Entry {
@@ -72,25 +74,37 @@ impl Entry {
         Self::Decide { channel, decisions }
     }
 
-    /// The channel it is about.
+    /// The channels it is about.
     #[must_use]
-    pub fn channel(&self) -> &str {
+    pub fn channels(&self) -> Vec<&str> {
         match self {
-            Self::Whole(plan) => &plan.channel,
-            Self::Setup { channel, .. } | Self::Decide { channel, .. } => channel,
+            Self::Whole(plan) => vec![&plan.channel],
+            Self::Setup { channel, .. } | Self::Decide { channel, .. } => vec![channel],
+            Self::Several(entries) => entries.iter().flat_map(Self::channels).collect(),
         }
     }
 
-    /// The edits that bring `session` to what the entry says; none where it is so already, or where the session has
+    /// The edit that brings `session` to what the entry says; none where it is so already, or where the session has
     /// no such channel.
     #[must_use]
-    pub fn edits(&self, session: &Session) -> Vec<Edit> {
-        let Some(index) = session.plans.iter().position(|p| p.channel == self.channel()) else { return Vec::new() };
+    pub fn edit(&self, session: &Session) -> Option<Edit> {
+        let mut edits = self.edits(session);
+        if edits.len() > 1 { Some(Edit::Several(edits)) } else { edits.pop() }
+    }
+
+    fn edits(&self, session: &Session) -> Vec<Edit> {
+        let (channel, setup, wanted) = match self {
+            Self::Several(entries) => return entries.iter().flat_map(|e| e.edits(session)).collect(),
+            Self::Whole(whole) => (&whole.channel, Some(&whole.setup), Some(&whole.decisions)),
+            Self::Setup { channel, setup } => (channel, Some(setup.as_ref()), None),
+            Self::Decide { channel, .. } => (channel, None, None),
+        };
+        let Some(index) = session.plans.iter().position(|p| p.channel == *channel) else { return Vec::new() };
         let Some(plan) = session.plans.get(index) else { return Vec::new() };
-        let (setup, wanted) = match self {
-            Self::Whole(whole) => (Some(&whole.setup), all_rows(&plan.decisions, &whole.decisions)),
-            Self::Setup { setup, .. } => (Some(setup.as_ref()), Vec::new()),
-            Self::Decide { decisions, .. } => (None, decisions.clone()),
+        let wanted = match (self, wanted) {
+            (Self::Decide { decisions, .. }, _) => decisions.clone(),
+            (_, Some(all)) => all_rows(&plan.decisions, all),
+            (_, None) => Vec::new(),
         };
         let mut edits = Vec::new();
         if let Some(after) = setup.filter(|s| **s != plan.setup) {
@@ -120,11 +134,19 @@ impl Scribe {
     #[must_use]
     pub fn beginning<'a>(plans: impl IntoIterator<Item = &'a Plan>) -> (Self, Vec<Entry>) {
         let entries: Vec<Entry> = plans.into_iter().map(|p| Entry::Whole(Box::new(p.clone()))).collect();
-        (Self { known: entries.iter().map(|e| e.channel().to_owned()).collect() }, entries)
+        let known = entries.iter().flat_map(Entry::channels).map(str::to_owned).collect();
+        (Self { known }, entries)
+    }
+
+    /// The entry after an edit that changed these of `plans`: indices, with rows as for [`Entry::of`].
+    pub fn entry(&mut self, plans: &[Plan], touched: &[(usize, Vec<u32>)]) -> Option<Entry> {
+        let known = touched.iter().filter_map(|(plan, rows)| Some((plans.get(*plan)?, rows)));
+        let mut entries: Vec<Entry> = known.map(|(plan, rows)| self.single(plan, rows)).collect();
+        if entries.len() > 1 { Some(Entry::Several(entries)) } else { entries.pop() }
     }
 
     /// The entry after a change of `plan`, as [`Entry::of`], or all of the plan when the journal does not have it yet.
-    pub fn entry(&mut self, plan: &Plan, rows: &[u32]) -> Entry {
+    fn single(&mut self, plan: &Plan, rows: &[u32]) -> Entry {
         if self.known.contains(&plan.channel) {
             return Entry::of(plan, rows);
         }
@@ -143,7 +165,7 @@ fn all_rows(now: &Decisions, then: &Decisions) -> Vec<(u32, Option<Decision>)> {
 pub fn replay(session: &mut Session, entries: &[Entry]) -> Vec<Edit> {
     let mut done = Vec::new();
     for entry in entries {
-        for edit in entry.edits(session) {
+        if let Some(edit) = entry.edit(session) {
             session.apply(&edit);
             done.push(edit);
         }

@@ -95,8 +95,8 @@ impl Journal {
     /// Takes down what has changed since the last call.
     pub(super) fn note(&mut self, model: &mut Model) {
         for touched in std::mem::take(&mut model.unjournalled) {
-            let (Some(plan), Some(desk)) = (model.session.plans.get(touched.plan), &mut self.desk) else { continue };
-            let entry = self.scribe.entry(plan, &touched.rows);
+            let Some(desk) = &mut self.desk else { continue };
+            let Some(entry) = self.scribe.entry(&model.session.plans, &touched) else { continue };
             desk.awaited += usize::from(desk.orders.send(Order::Add(entry)).is_ok());
         }
     }

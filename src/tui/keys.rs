@@ -80,14 +80,21 @@ pub static KEYMAP: &[Binding] = {
         row(Review, &["r"], A::Reject, "reject the flag: the sample is good; go on to the next", "reject"),
         row(Review, &["space"], A::Toggle, "toggle between accepted and rejected", "toggle"),
         row(Review, &["x"], A::Clear, "take the decision back", ""),
+        row(Review, &["v"], A::SelectRange, "range: move, then a r x space o are about it; esc leaves", "range"),
         row(Review, &["o"], A::ByHand, "flag the sample under the cursor by hand", "flag"),
-        row(Review, &["c"], A::Note, "write a note on the decision", ""),
+        row(Review, &["c"], A::Note, "write a note on the decision, with a reason from a list", ""),
         row(Review, &["g a"], A::AcceptView, "accept all flags in view but suspects (one undo step)", ""),
         row(Review, &["g r"], A::RejectView, "reject all flags in view", ""),
         row(Review, &["g x"], A::ClearView, "take back all decisions in view", ""),
         row(Review, &["g n"], A::NextSuspect, "next suspect (only one direction objects)", ""),
         row(Review, &["g p"], A::PreviousSuspect, "previous suspect", ""),
-        row(Review, &["s"], A::Sort, "sort the queue by time, ratio or state", ""),
+        row(Review, &["g c"], A::NextConflict, "next conflict (the method now says otherwise)", ""),
+        row(Review, &["g C"], A::PreviousConflict, "previous conflict", ""),
+        row(Review, &["g e"], A::Epoch, "decide on the epoch: the same row in all channels", ""),
+        row(Review, &["K"], A::Unit, "adjacent flags as one run, or sample by sample", ""),
+        row(Review, &["g ."], A::AutoAdvance, "auto-advance: decisions go on to the next flag, or stay", ""),
+        row(Review, &["s"], A::Sort, "sort the queue by time, ratio, state or run", ""),
+        row(Review, &["J"], A::Journal, "journal of all edits; enter goes back to one", ""),
         row(Everywhere, &["u"], A::Undo, "undo", "undo"),
         row(Everywhere, &["U", "ctrl-r"], A::Redo, "redo", ""),
         row(View, &["+", "="], A::ZoomIn, "zoom in at the cursor", "zoom"),
@@ -114,6 +121,7 @@ pub static KEYMAP: &[Binding] = {
         row(View, &["."], A::StepUp, "active parameter one step up", ""),
         row(View, &[";"], A::NextKnob, "make the next parameter the active one", ""),
         row(View, &["f"], A::Suggested, "take the threshold that the record itself suggests", ""),
+        row(View, &["g s"], A::SettingsToAll, "settings to all channels (method, knobs, repair)", ""),
         row(View, &["i"], A::Preset, "all parameters to the paper's values, or back to the defaults", ""),
         row(Parameters, &["down", "j"], A::NextKnob, "next parameter", "choose"),
         row(Parameters, &["up", "k"], A::PreviousKnob, "previous parameter", ""),
@@ -286,6 +294,8 @@ mod tests {
                     | A::AcceptView
                     | A::RejectView
                     | A::ClearView
+                    | A::Epoch
+                    | A::SettingsToAll
                     | A::Save
                     | A::Export
                     | A::Quit

@@ -139,6 +139,13 @@ fn maximised(whole: Rect, focus: Panel) -> Areas {
     areas
 }
 
+/// Rows of flags in the panel of the queue: below the heading, and the names of the columns where there is room.
+#[must_use]
+pub fn queue_rows(area: Rect) -> usize {
+    let body = area.height.saturating_sub(1);
+    usize::from(if body >= 6 { body - 1 } else { body })
+}
+
 /// Columns of cells on which the trace draws samples.
 #[must_use]
 pub fn plot_columns(model: &Model) -> u16 {

@@ -17,9 +17,11 @@ use crate::track::{Channel, Series, Track};
 
 mod channel;
 mod overlay;
+mod review;
 
 pub use channel::{ChannelState, Layers, YMode};
 pub use overlay::{Overlay, Picker, PickerKind, Prompt, PromptKind};
+pub use review::{Group, Reviewing, Sort, Unit};
 
 /// Everything on the screen comes from here.
 #[derive(Debug)]
@@ -58,33 +60,12 @@ pub struct Model {
     pub glyphs: Glyphs,
     /// The job whose result is awaited.
     pub awaited: Option<u64>,
-    /// Order of the queue.
-    pub sort: Sort,
+    /// How the flags are reviewed.
+    pub review: Reviewing,
     /// Whether the next quit is meant.
     pub interrupted: bool,
-    /// Changes of the document that the journal does not have yet.
-    pub unjournalled: Vec<Touched>,
-}
-
-/// Where the document has changed.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Touched {
-    /// Index of the plan.
-    pub plan: usize,
-    /// Rows (from 0) whose decisions have changed; none when it was the setup.
-    pub rows: Vec<u32>,
-}
-
-/// Order of the queue.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Sort {
-    /// By time.
-    #[default]
-    Time,
-    /// The largest residual in tolerances first.
-    Ratio,
-    /// Those nobody decided on first.
-    State,
+    /// Edits of the document that the journal does not have yet, as [`Edit::touched`] says.
+    pub unjournalled: Vec<Vec<(usize, Vec<u32>)>>,
 }
 
 /// Something said to the user in the footer.
@@ -143,7 +124,7 @@ impl Model {
             theme,
             glyphs,
             awaited: None,
-            sort: Sort::Time,
+            review: Reviewing::default(),
             interrupted: false,
             unjournalled: Vec::new(),
         }

@@ -4,28 +4,39 @@
 use super::action::{Action, Panel};
 use super::keys::{Meaning, meaning};
 use super::message::{Effect, Message, Written};
-use super::model::{Knob, Model, Overlay, Picker, PickerKind, Prompt, PromptKind, Sort, Tone};
+use super::model::{Knob, Model, Overlay, Picker, PickerKind, Prompt, PromptKind, Tone};
 use crate::error::Error;
-use crate::session::{Edit, Setup};
 
+mod channels;
 mod command;
+pub(super) mod decide;
+pub(super) mod describe;
 mod files;
 mod history;
+mod journal;
 mod navigate;
+pub(super) mod note;
 mod overlay;
+pub(super) mod queue;
 mod recover;
 mod review;
 mod tune;
 
 pub use command::{COMMANDS, Command};
 pub use files::{default_export, default_session};
-use history::commit;
+use history::{commit, set_up};
 pub use overlay::{Entry, narrowed};
 pub(super) use review::mark_at;
 pub(super) use tune::value_text;
 
 /// Takes a message in; gives what the outside has to do.
 pub fn update(model: &mut Model, message: Message) -> Vec<Effect> {
+    let effects = take(model, message);
+    queue::keep_in_sight(model);
+    effects
+}
+
+fn take(model: &mut Model, message: Message) -> Vec<Effect> {
     match message {
         Message::Key(key) => {
             if !matches!(model.overlay, Overlay::None) {
@@ -93,7 +104,6 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Redraw => vec![Effect::Redraw],
         Action::Suspend => vec![Effect::Suspend],
         Action::Back => back(model),
-        Action::Sort => sort(model),
         Action::StepUp => tune::step(model, 1),
         Action::StepDown => tune::step(model, -1),
         Action::StepUpFar => tune::step(model, 10),
@@ -114,17 +124,26 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
         | Action::PreviousUnreviewed
         | Action::NextSuspect
         | Action::PreviousSuspect
+        | Action::NextConflict
+        | Action::PreviousConflict
         | Action::NextInQueue
         | Action::PreviousInQueue
+        | Action::Sort
+        | Action::Unit
+        | Action::AutoAdvance => review::act(model, action),
+        Action::Note => note::ask(model),
+        Action::Journal => journal::open(model),
+        Action::SettingsToAll => channels::settings_to_all(model),
+        Action::Epoch => channels::epoch(model),
+        Action::SelectRange
         | Action::Accept
         | Action::Reject
         | Action::Toggle
         | Action::Clear
         | Action::ByHand
-        | Action::Note
         | Action::AcceptView
         | Action::RejectView
-        | Action::ClearView => review::act(model, action),
+        | Action::ClearView => decide::act(model, action),
         _ => {
             navigate::act(model, action);
             Vec::new()
@@ -140,20 +159,16 @@ pub(super) fn show(model: &mut Model, plan: usize) -> Vec<Effect> {
         }
         return Vec::new();
     }
-    model.shown = plan;
+    turn_to(model, plan);
     let text = format!("{} · channel {} of {}", model.plan().channel, plan + 1, model.channels.len());
     model.say(Tone::Done, text);
     if model.state().stale && model.state().error.is_none() { vec![Effect::Analyse(plan)] } else { Vec::new() }
 }
 
-/// Changes method, settings or repair of the channel on the screen.
-pub(super) fn set_up(model: &mut Model, after: Setup) -> Vec<Effect> {
-    let before = model.plan().setup.clone();
-    if before == after {
-        return Vec::new();
-    }
-    let plan = model.shown;
-    commit(model, Edit::Setup { plan, before: Box::new(before), after: Box::new(after) })
+/// Puts another channel on the screen: a range that was selected has no meaning there.
+fn turn_to(model: &mut Model, plan: usize) {
+    model.shown = plan;
+    (model.review.anchor, model.review.left_at) = (None, None);
 }
 
 fn analysed(
@@ -204,29 +219,6 @@ fn remember_what_was_said(model: &mut Model, plan: usize) {
     }
 }
 
-fn sort(model: &mut Model) -> Vec<Effect> {
-    model.sort = match model.sort {
-        Sort::Time => Sort::Ratio,
-        Sort::Ratio => Sort::State,
-        Sort::State => Sort::Time,
-    };
-    for plan in 0..model.channels.len() {
-        files::queue(model, plan);
-    }
-    let by = match model.sort {
-        Sort::Time => "time",
-        Sort::Ratio => "ratio, largest first",
-        Sort::State => "state, undecided first",
-    };
-    if model.sort != Sort::Time
-        && let Some(&first) = model.state().queue.first()
-    {
-        navigate::go_to(model, first as usize);
-    }
-    model.say(Tone::Done, format!("queue by {by}"));
-    Vec::new()
-}
-
 fn focus(model: &mut Model, by: usize) -> Vec<Effect> {
     let at = Panel::ALL.iter().position(|p| *p == model.focus).unwrap_or(0);
     model.focus = Panel::ALL[(at + by) % Panel::ALL.len()];
@@ -267,7 +259,9 @@ fn interrupt(model: &mut Model) -> Vec<Effect> {
 }
 
 fn back(model: &mut Model) -> Vec<Effect> {
-    if model.maximised {
+    if model.review.anchor.take().is_some() {
+        model.say(Tone::Done, "range given up");
+    } else if model.maximised {
         model.maximised = false;
     } else if model.awaited.take().is_some() {
         model.say(Tone::Warning, "computation stopped; any change starts it again");

@@ -13,11 +13,13 @@ use super::model::{Model, Overlay, Tone};
 
 mod card;
 mod footer;
+mod journal;
 mod overlay;
 mod parameters;
 mod plain;
 mod plots;
 mod queue;
+mod reasons;
 mod recover;
 mod title;
 

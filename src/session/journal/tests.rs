@@ -28,11 +28,20 @@ enum Deed {
     Method(usize, usize, bool),
     Step(usize, usize, i64),
     Repair(usize, usize, i64),
+    /// Deeds on the same channel or on others, at once.
+    Several(Box<[Deed; 3]>),
     Undo,
     Redo,
 }
 
 fn deed() -> impl Strategy<Value = Deed> {
+    prop_oneof![
+        4 => single_deed(),
+        1 => [single_deed(), single_deed(), single_deed()].prop_map(|deeds| Deed::Several(Box::new(deeds))),
+    ]
+}
+
+fn single_deed() -> impl Strategy<Value = Deed> {
     let plan = 0..3_usize;
     let rows = prop::collection::vec((0..ROWS as u32, any::<Option<bool>>()), 1..4);
     prop_oneof![
@@ -85,6 +94,12 @@ fn edit_of(deed: &Deed, session: &Session) -> Option<Edit> {
             turned(&mut after.repair, *knob, *steps);
             setup(*plan, after)
         }
+        Deed::Several(deeds) => {
+            // Each follows on what those before it have made of the session.
+            let mut between = session.clone();
+            let edits = deeds.iter().filter_map(|deed| edit_of(deed, &between).inspect(|e| between.apply(e)));
+            Some(Edit::Several(edits.collect())).filter(|several| !several.parts().is_empty())
+        }
         Deed::Undo | Deed::Redo => None,
     }
 }
@@ -110,14 +125,27 @@ fn lived(deeds: &[Deed], begun: bool) -> (Vec<u8>, Vec<Vec<Plan>>) {
             }),
         };
         let Some(edit) = edit else { continue };
-        let (plan, rows): (usize, Vec<u32>) = match &edit {
-            Edit::Decide { plan, changes } => (*plan, changes.iter().map(|c| c.row).collect()),
-            Edit::Setup { plan, .. } => (*plan, Vec::new()),
-        };
-        text += &encoder.entry(&scribe.entry(&session.plans[plan], &rows));
+        text += &encoder.entry(&scribe.entry(&session.plans, &edit.touched()).unwrap());
         states.push(session.plans.clone());
     }
     (text.into_bytes(), states)
+}
+
+proptest! {
+    #[test]
+    fn an_edit_that_is_made_and_taken_back_leaves_nothing(deeds in prop::collection::vec(deed(), 1..12)) {
+        let mut session = session();
+        for deed in &deeds {
+            let Some(edit) = edit_of(deed, &session) else { continue };
+            let before = session.plans.clone();
+            session.apply(&edit);
+            let after = session.plans.clone();
+            session.revert(&edit);
+            prop_assert_eq!(&session.plans, &before);
+            session.apply(&edit);
+            prop_assert_eq!(&session.plans, &after);
+        }
+    }
 }
 
 fn plans_of(journal: &Journal) -> Vec<Plan> {

@@ -48,6 +48,20 @@ struct WrittenEntry {
     changes: Option<Vec<WrittenDecision>>,
 }
 
+/// What one edit changed in several places.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenSeveral {
+    several: Vec<WrittenEntry>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+enum WrittenLine {
+    Several(WrittenSeveral),
+    Single(WrittenEntry),
+}
+
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WrittenSetup {
@@ -97,34 +111,54 @@ pub(super) fn header_of(text: &str) -> Option<Header> {
 
 /// The JSON of an entry, on one line.
 pub(super) fn entry_text(entry: &Entry) -> String {
-    let channel = entry.channel().to_owned();
-    let blank = WrittenEntry { channel, setup: None, decisions: None, changes: None };
-    json(&match entry {
+    match entry {
+        Entry::Several(_) => json(&WrittenSeveral { several: singles(entry) }),
+        _ => singles(entry).first().map(json).unwrap_or_default(),
+    }
+}
+
+/// The entries that an entry consists of.
+fn singles(entry: &Entry) -> Vec<WrittenEntry> {
+    let of = |channel: &str| WrittenEntry { channel: channel.to_owned(), setup: None, decisions: None, changes: None };
+    vec![match entry {
+        Entry::Several(entries) => return entries.iter().flat_map(singles).collect(),
         Entry::Whole(plan) => {
             let decisions = plan.decisions.iter().map(|(row, d)| written(row, Some(d))).collect();
-            WrittenEntry { setup: Some(written_setup(&plan.setup)), decisions: Some(decisions), ..blank }
+            let setup = Some(written_setup(&plan.setup));
+            WrittenEntry { setup, decisions: Some(decisions), ..of(&plan.channel) }
         }
-        Entry::Setup { setup, .. } => WrittenEntry { setup: Some(written_setup(setup)), ..blank },
-        Entry::Decide { decisions, .. } => {
+        Entry::Setup { channel, setup } => WrittenEntry { setup: Some(written_setup(setup)), ..of(channel) },
+        Entry::Decide { channel, decisions } => {
             let changes = decisions.iter().map(|(row, d)| written(*row, d.as_ref())).collect();
-            WrittenEntry { changes: Some(changes), ..blank }
+            WrittenEntry { changes: Some(changes), ..of(channel) }
         }
-    })
+    }]
 }
 
 /// The entry of a JSON text about a record of `rows` rows; none for one that makes no sense.
 pub(super) fn entry_of(text: &str, rows: usize) -> Option<Entry> {
-    let WrittenEntry { channel, setup, decisions, changes } = serde_json::from_str(text).ok()?;
-    let read = |list: Vec<WrittenDecision>| list.into_iter().map(|d| d.read(rows)).collect::<Option<Vec<_>>>();
-    match (setup, decisions, changes) {
-        (Some(setup), Some(list), None) => {
-            let mut decisions = Decisions::default();
-            read(list)?.into_iter().for_each(|(row, d)| decisions.set(row, d));
-            Some(Entry::Whole(Box::new(Plan { channel, setup: setup.read()?, decisions })))
+    match serde_json::from_str(text).ok()? {
+        WrittenLine::Single(single) => single.read(rows),
+        WrittenLine::Several(WrittenSeveral { several }) => {
+            Some(Entry::Several(several.into_iter().map(|e| e.read(rows)).collect::<Option<_>>()?))
         }
-        (Some(setup), None, None) => Some(Entry::Setup { channel, setup: Box::new(setup.read()?) }),
-        (None, None, Some(list)) => Some(Entry::Decide { channel, decisions: read(list)? }),
-        _ => None,
+    }
+}
+
+impl WrittenEntry {
+    fn read(self, rows: usize) -> Option<Entry> {
+        let Self { channel, setup, decisions, changes } = self;
+        let read = |list: Vec<WrittenDecision>| list.into_iter().map(|d| d.read(rows)).collect::<Option<Vec<_>>>();
+        match (setup, decisions, changes) {
+            (Some(setup), Some(list), None) => {
+                let mut decisions = Decisions::default();
+                read(list)?.into_iter().for_each(|(row, d)| decisions.set(row, d));
+                Some(Entry::Whole(Box::new(Plan { channel, setup: setup.read()?, decisions })))
+            }
+            (Some(setup), None, None) => Some(Entry::Setup { channel, setup: Box::new(setup.read()?) }),
+            (None, None, Some(list)) => Some(Entry::Decide { channel, decisions: read(list)? }),
+            _ => None,
+        }
     }
 }
 

@@ -87,8 +87,8 @@ pub(super) fn search(folder: &Path, record: &str, track: &Track, session: &Sessi
 
 fn found(path: PathBuf, time: SystemTime, journal: Journal, session: &Session) -> Found {
     let changes = journal.changes();
-    let unknown = |e: &&Entry| session.plans.iter().all(|p| p.channel != e.channel());
-    let missing = journal.entries.iter().find(unknown).map(|e| e.channel().to_owned());
+    let unknown = |channel: &&str| session.plans.iter().all(|p| p.channel != *channel);
+    let missing = journal.entries.iter().flat_map(Entry::channels).find(unknown).map(str::to_owned);
     let base = journal.header.base;
     let session_changed =
         base.as_ref().is_some_and(|b| b.sha256.is_empty() || sha256_of(Path::new(&b.path)) != b.sha256);

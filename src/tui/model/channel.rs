@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::super::advice::Advice;
 use super::super::plot::{Axis, Flags, View};
+use super::Group;
 use crate::param::Settings;
 use crate::plot::Drawn;
 use crate::session::Plan;
@@ -21,8 +22,12 @@ pub struct ChannelState {
     pub drawn: Option<Arc<Drawn>>,
     /// Its flags, for drawing.
     pub flags: Flags,
-    /// Positions of the flags in the order of the queue.
+    /// Positions of the flags in the order of the queue; of the first of each run, where runs are reviewed.
     pub queue: Vec<u32>,
+    /// The runs that the flags form, by time.
+    pub groups: Vec<Group>,
+    /// Position of the flag in the first row of the queue's panel.
+    pub top: u32,
     /// The counts along the multiplier, for the setup they were found for.
     pub advice: Option<Advice>,
     /// True when the result is not that of the session as it is now.
@@ -85,6 +90,8 @@ impl ChannelState {
             drawn: None,
             flags: Flags::default(),
             queue: Vec::new(),
+            groups: Vec::new(),
+            top: 0,
             advice: None,
             stale: true,
             error: None,

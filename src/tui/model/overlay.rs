@@ -18,6 +18,8 @@ pub enum Overlay {
     Prompt(Prompt),
     /// Quit although something is not saved?
     ConfirmQuit,
+    /// What was done, at the moment after so many edits.
+    Journal(usize),
     /// Take back in what an earlier workbench left? The newest first.
     Recover(Vec<Found>),
 }
@@ -66,6 +68,6 @@ pub enum PromptKind {
     Jump,
     /// The value of the active knob.
     Value,
-    /// A note on the decision about this row (from 0).
-    Note(u32),
+    /// A note on decisions.
+    Note,
 }

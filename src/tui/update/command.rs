@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::super::message::Effect;
 use super::super::model::{Model, Tone};
-use super::{Action, act, files, navigate, show, tune};
+use super::{Action, act, files, navigate, review, show, tune};
 use crate::error::nearest;
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
@@ -54,6 +54,14 @@ pub static COMMANDS: &[Command] = &[
     }),
     command("channel", "NAME", "show another channel", channel),
     command("goto", "TIME|#ROW", "put the cursor on a time or a row", |m, a| jump(m, a).map(|()| Vec::new())),
+    command("auto-advance", "[on|off]", "whether a decision goes on to the next flag", |m, a| match a {
+        "" => Ok(act(m, Action::AutoAdvance)),
+        "on" | "off" => {
+            review::set_auto_advance(m, a == "on");
+            Ok(Vec::new())
+        }
+        other => Err(format!("{}: on or off", printable(other))),
+    }),
     command("help", "", "keys and commands", |m, _| Ok(act(m, Action::Help))),
 ];
 

@@ -4,11 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::message::{Effect, Written};
-use super::super::model::{Model, Sort, Tone};
+use super::super::model::{Model, Tone};
 use super::super::plot::Flags;
-use super::is_session;
+use super::{is_session, queue};
 use crate::error::Result;
-use crate::method::Verdict;
 use crate::plot::Drawn;
 use crate::track::Source;
 
@@ -89,30 +88,5 @@ pub(super) fn arrange(model: &mut Model, plan: usize, drawn: Drawn) {
     if model.toast.as_ref().is_some_and(|t| t.tone == Tone::Error) {
         model.toast = None;
     }
-    queue(model, plan);
-}
-
-/// Brings the queue of a channel into order.
-pub(super) fn queue(model: &mut Model, plan: usize) {
-    let channel = model.channels[plan].channel;
-    let samples = Arc::clone(&model.channels[plan].samples);
-    let series = samples.series(&model.track.channels[channel], &model.track.time);
-    let Some(drawn) = model.channels[plan].drawn.clone() else { return };
-    let mut queue = drawn.positions.clone();
-    match model.sort {
-        Sort::Time => {}
-        Sort::Ratio => {
-            let ratio = |p: &u32| drawn.residual(&series, *p as usize).map_or(0.0, f64::abs);
-            queue.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
-        }
-        Sort::State => {
-            let rank = |p: &u32| match drawn.outcome.mark(*p as usize) {
-                Some(m) if m.ruling.is_none() && m.verdict == Verdict::Outlier => 0,
-                Some(m) if m.ruling.is_none() => 1,
-                _ => 2,
-            };
-            queue.sort_by_key(rank);
-        }
-    }
-    model.channels[plan].queue = queue;
+    queue::arrange(model, plan);
 }

@@ -1,15 +1,15 @@
-//! Edits that can be undone, undo and redo.
+//! Edits of the document: made, taken back, made again.
 
 use super::super::message::Effect;
-use super::super::model::{Model, Tone, Touched};
-use super::{navigate, tune};
-use crate::review::Change;
-use crate::session::Edit;
+use super::super::model::{Model, Tone};
+use super::{describe, navigate, tune};
+use crate::session::{Edit, Setup};
 
-/// Makes an edit that can be undone; the channel is judged again.
+/// Makes an edit that can be undone; the channels it is about are judged again.
 pub(super) fn commit(model: &mut Model, edit: Edit) -> Vec<Effect> {
+    let alike = alike(model, &edit);
     model.session.apply(&edit);
-    let effects = changed(model, &edit);
+    let effects = changed(model, &edit, &alike);
     if !join(model, &edit) {
         model.history.push(edit);
     }
@@ -31,69 +31,110 @@ fn join(model: &mut Model, edit: &Edit) -> bool {
     false
 }
 
+/// Other channels that are judged together with those whose setup changes, under what it was or what it is: what
+/// they belong with changes, and so does their result.
+fn alike(model: &Model, edit: &Edit) -> Vec<usize> {
+    let mut found = Vec::new();
+    for part in edit.parts() {
+        let Edit::Setup { before, after, .. } = part else { continue };
+        for setup in [before, after].into_iter().filter(|s| s.together()) {
+            let same = |(_, plan): &(usize, &crate::session::Plan)| plan.setup.same_detection(setup);
+            found.extend(model.session.plans.iter().enumerate().filter(same).map(|(i, _)| i));
+        }
+    }
+    found
+}
+
 /// The session has changed: it is not saved, and its result is not the one on the screen.
-fn changed(model: &mut Model, edit: &Edit) -> Vec<Effect> {
-    let (plan, rows) = match edit {
-        Edit::Decide { plan, changes } => (*plan, changes.iter().map(|c| c.row).collect()),
-        Edit::Setup { plan, .. } => (*plan, Vec::new()),
-    };
-    model.unjournalled.push(Touched { plan, rows });
+fn changed(model: &mut Model, edit: &Edit, alike: &[usize]) -> Vec<Effect> {
+    let touched = edit.touched();
+    for (plan, _) in &touched {
+        model.channels[*plan].touched = true;
+    }
+    for plan in touched.iter().map(|(plan, _)| *plan).chain(alike.iter().copied()) {
+        let state = &mut model.channels[plan];
+        (state.stale, state.error) = (true, None);
+    }
+    model.unjournalled.push(touched);
     model.revision += 1;
-    let state = &mut model.channels[plan];
-    state.touched = true;
-    state.stale = true;
-    state.error = None;
-    vec![Effect::Analyse(plan)]
+    // The others are judged when they are shown.
+    if model.state().stale { vec![Effect::Analyse(model.shown)] } else { Vec::new() }
+}
+
+/// Changes method, settings or repair of the channel on the screen.
+pub(super) fn set_up(model: &mut Model, after: Setup) -> Vec<Effect> {
+    let before = model.plan().setup.clone();
+    if before == after {
+        return Vec::new();
+    }
+    let plan = model.shown;
+    commit(model, Edit::Setup { plan, before: Box::new(before), after: Box::new(after) })
 }
 
 pub(super) fn undo(model: &mut Model) -> Vec<Effect> {
-    let Some(edit) = model.history.undo() else {
+    let Some(edit) = step(model, false) else {
         model.say(Tone::Warning, "nothing to undo");
         return Vec::new();
     };
-    model.session.revert(&edit);
-    after_history(model, &edit, "undone", "U redo")
+    say(model, &edit, "undone", "U redo")
 }
 
 pub(super) fn redo(model: &mut Model) -> Vec<Effect> {
-    let Some(edit) = model.history.redo() else {
+    let Some(edit) = step(model, true) else {
         model.say(Tone::Warning, "nothing to redo");
         return Vec::new();
     };
-    model.session.apply(&edit);
-    after_history(model, &edit, "done again", "u undo")
+    say(model, &edit, "done again", "u undo")
 }
 
-fn after_history(model: &mut Model, edit: &Edit, verb: &str, way_back: &str) -> Vec<Effect> {
-    let (Edit::Decide { plan, .. } | Edit::Setup { plan, .. }) = edit;
-    model.shown = *plan;
-    if let Edit::Decide { changes, .. } = edit
-        && let Some(first) = changes.first()
-        && let Some(position) = model.series().position(first.row as usize)
-    {
+/// Undoes or redoes until so many edits are in force.
+pub(super) fn go_back_to(model: &mut Model, edits: usize) -> Vec<Effect> {
+    let from = model.history.len();
+    let forth = edits > from;
+    let mut last = None;
+    while model.history.len() != edits {
+        let Some(edit) = step(model, forth) else { break };
+        last = Some(edit);
+    }
+    let Some(edit) = last else {
+        model.say(Tone::Done, "this is where the session is");
+        return Vec::new();
+    };
+    let effects = say(model, &edit, "", "");
+    let steps = model.history.len().abs_diff(from);
+    let (verb, back) = if forth { ("done again", "u undo") } else { ("undone", "U redo") };
+    model.say(Tone::Done, format!("{steps} {verb} · {back} one by one · J journal"));
+    effects
+}
+
+/// Takes the last edit back or makes the next again.
+fn step(model: &mut Model, forth: bool) -> Option<Edit> {
+    let edit = if forth { model.history.redo() } else { model.history.undo() }?;
+    let mut alike = alike(model, &edit);
+    if forth {
+        model.session.apply(&edit)
+    } else {
+        model.session.revert(&edit)
+    }
+    alike.extend(self::alike(model, &edit));
+    // The channel that is shown is judged when it is known which that is.
+    let _ = changed(model, &edit, &alike);
+    Some(edit)
+}
+
+/// Shows where an edit was, and says what it was.
+fn say(model: &mut Model, edit: &Edit, verb: &str, way_back: &str) -> Vec<Effect> {
+    let touched = edit.touched();
+    // Where several channels were changed, the one on the screen stays.
+    if let Some((plan, _)) = touched.first().filter(|_| touched.iter().all(|(plan, _)| *plan != model.shown)) {
+        super::turn_to(model, *plan);
+    }
+    let here = touched.iter().find(|(plan, _)| *plan == model.shown);
+    let position = here.and_then(|(_, rows)| model.series().position(*rows.first()? as usize));
+    if let Some(position) = position {
         navigate::go_to(model, position);
     }
-    let text = format!("{verb}: {} · {way_back}", describe(model, edit));
+    let text = format!("{verb}: {} · {way_back}", describe::edit(model, edit));
     model.say(Tone::Done, text);
-    changed(model, edit)
-}
-
-/// An edit in few words.
-fn describe(model: &Model, edit: &Edit) -> String {
-    match edit {
-        Edit::Decide { changes, .. } => match changes.as_slice() {
-            [Change { row, after, .. }] => {
-                let what = after.as_ref().map_or("decision taken back", |d| d.ruling.verdict().word());
-                format!("row {} {what}", row + 1)
-            }
-            several => format!("decisions on {} samples", several.len()),
-        },
-        Edit::Setup { before, after, .. } => {
-            let _ = model;
-            match tune::knob_between(before, after) {
-                Some((name, from, to)) => format!("{name} {from} → {to}"),
-                None => format!("{} → {}", before.method.about().id, after.method.about().id),
-            }
-        }
-    }
+    if model.state().stale { vec![Effect::Analyse(model.shown)] } else { Vec::new() }
 }

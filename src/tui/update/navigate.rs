@@ -87,8 +87,20 @@ fn pan(model: &mut Model, share: f64) {
         model.say(Tone::Warning, "this is the end of the record");
     }
     // Panning is no view to come back to: `Z` leads back to where it started from.
+    let before = model.state().view;
     model.state_mut().view = view;
+    if model.review.anchor.is_some() {
+        carry_cursor(model, share * before.width());
+    }
     cursor_into_view(model);
+}
+
+/// While a range is open, panning is a motion: the cursor goes along, at the end of the record too.
+fn carry_cursor(model: &mut Model, seconds: f64) {
+    let series = model.series();
+    let Some(&t) = series.t.get(model.state().cursor) else { return };
+    let cursor = series.before(t + seconds).min(series.len().saturating_sub(1));
+    model.state_mut().cursor = cursor;
 }
 
 /// The cursor stays on the screen.

@@ -5,7 +5,7 @@ use tui_input::{Input, InputRequest};
 
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
-use super::{command, files, recover, review, set_up, show, tune};
+use super::{command, files, journal, note, recover, set_up, show, tune};
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
 use crate::track::printable;
@@ -92,6 +92,7 @@ pub(super) fn key(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
         Overlay::Picker(picker) => pick(model, picker, key),
         Overlay::Prompt(prompt) => type_in(model, prompt, key),
         Overlay::ConfirmQuit => confirm(model, key),
+        Overlay::Journal(at) => journal::key(model, at, key),
     }
 }
 
@@ -101,7 +102,7 @@ pub(super) fn paste(model: &mut Model, text: &str) -> Vec<Effect> {
         Overlay::Prompt(prompt) => &mut prompt.input,
         Overlay::Picker(picker) => &mut picker.filter,
         Overlay::Help(filter, _) => filter,
-        Overlay::None | Overlay::ConfirmQuit | Overlay::Recover(_) => return Vec::new(),
+        Overlay::None | Overlay::ConfirmQuit | Overlay::Recover(_) | Overlay::Journal(_) => return Vec::new(),
     };
     for c in text.chars().filter(|c| !c.is_control()) {
         input.handle(InputRequest::InsertChar(c));
@@ -178,7 +179,7 @@ fn type_in(model: &mut Model, mut prompt: Prompt, key: KeyEvent) -> Vec<Effect> 
                 PromptKind::Command => command::run(model, &text),
                 PromptKind::Jump => command::jump(model, &text).map(|()| Vec::new()),
                 PromptKind::Value => tune::set_value(model, &text),
-                PromptKind::Note(row) => Ok(review::set_note(model, row, &text)),
+                PromptKind::Note => Ok(note::set(model, &text)),
             };
             match done {
                 Ok(effects) => return effects,
@@ -189,6 +190,10 @@ fn type_in(model: &mut Model, mut prompt: Prompt, key: KeyEvent) -> Vec<Effect> 
             if let Some(completed) = command::complete(model, prompt.input.value()) {
                 prompt.input = completed.into();
             }
+        }
+        KeyCode::Tab if prompt.kind == PromptKind::Note => prompt.input = note::completed(prompt.input.value()).into(),
+        KeyCode::Down | KeyCode::Up if prompt.kind == PromptKind::Note => {
+            prompt.input = note::turned(prompt.input.value(), key.code == KeyCode::Down).into();
         }
         KeyCode::Backspace if prompt.input.value().is_empty() && prompt.kind == PromptKind::Command => {
             return Vec::new();

@@ -5,7 +5,7 @@ use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use super::super::journal::{Found, counted};
 use super::super::message::{Effect, Fate};
 use super::super::model::{Model, Overlay, Tone};
-use crate::session::{Edit, journal};
+use crate::session::journal;
 
 /// A key while `offered` are offered: the first is asked about.
 pub(super) fn key(model: &mut Model, mut offered: Vec<Found>, key: KeyEvent) -> Vec<Effect> {
@@ -46,14 +46,15 @@ fn left(offered: &[Found]) -> Vec<Effect> {
 /// Takes the changes in, one edit after the other, so that each can be undone.
 fn take(model: &mut Model, found: Found) -> Vec<Effect> {
     for edit in journal::replay(&mut model.session, &found.entries) {
-        let (Edit::Decide { plan, .. } | Edit::Setup { plan, .. }) = edit;
-        let state = &mut model.channels[plan];
-        (state.touched, state.stale, state.error) = (true, true, None);
+        for (plan, _) in edit.touched() {
+            let state = &mut model.channels[plan];
+            (state.touched, state.stale, state.error) = (true, true, None);
+        }
         model.history.push(edit);
     }
     model.revision += 1;
     if let Some(last) = found.entries.last()
-        && let Some(plan) = model.session.plans.iter().position(|p| p.channel == last.channel())
+        && let Some(plan) = model.session.plans.iter().position(|p| last.channels().contains(&p.channel.as_str()))
     {
         model.shown = plan;
     }

@@ -1,13 +1,12 @@
-//! Walking the flags and deciding on them.
+//! Walking the flags: sample by sample or run by run, in the order of the queue.
 
 use super::super::action::Action;
 use super::super::message::Effect;
-use super::super::model::{Model, PromptKind, Sort, Tone};
-use super::super::plot::{Axis, FlagState};
-use super::{commit, navigate, prompt};
+use super::super::model::{Model, Sort, Tone, Unit};
+use super::super::plot::FlagState;
+use super::{navigate, queue};
 use crate::plot::state;
-use crate::review::{Change, Decision, Ruling};
-use crate::session::{Edit, Mark};
+use crate::session::Mark;
 
 pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
     match action {
@@ -17,17 +16,16 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::PreviousUnreviewed => go(model, false, Stops::Undecided),
         Action::NextSuspect => go(model, true, Stops::Suspects),
         Action::PreviousSuspect => go(model, false, Stops::Suspects),
+        Action::NextConflict => go(model, true, Stops::Conflicts),
+        Action::PreviousConflict => go(model, false, Stops::Conflicts),
         Action::NextInQueue => go(model, true, Stops::All),
         Action::PreviousInQueue => go(model, false, Stops::All),
-        Action::Accept => return decide(model, Some(Ruling::Outlier)),
-        Action::Reject => return decide(model, Some(Ruling::Normal)),
-        Action::Clear => return decide(model, None),
-        Action::Toggle => return toggle(model),
-        Action::ByHand => return by_hand(model),
-        Action::Note => return note(model),
-        Action::AcceptView => return in_view(model, Some(Ruling::Outlier)),
-        Action::RejectView => return in_view(model, Some(Ruling::Normal)),
-        Action::ClearView => return in_view(model, None),
+        Action::Sort => sort(model),
+        Action::Unit => unit(model),
+        Action::AutoAdvance => {
+            let on = !model.review.auto_advance;
+            set_auto_advance(model, on);
+        }
         _ => {}
     }
     Vec::new()
@@ -47,36 +45,51 @@ pub(in crate::tui) fn mark_at(model: &Model, position: usize) -> Option<Mark> {
 
 /// Which flags a walk stops at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Stops {
+pub(super) enum Stops {
     /// All but suspects, which are a class of their own.
     Flags,
     /// Flags that nobody decided on.
     Undecided,
     /// Suspects that nobody decided on.
     Suspects,
+    /// Decisions that the method contradicts now.
+    Conflicts,
     /// Everything in the queue.
     All,
 }
 
 impl Stops {
+    /// Whether the walk stops at an entry of the queue: at any sample of a run.
     fn at(self, model: &Model, position: usize) -> bool {
-        let shown = mark_at(model, position).as_ref().and_then(state);
+        let group = model.group(position).filter(|_| model.review.unit == Unit::Run);
+        let samples = group.map_or(position..position + 1, |g| g.positions());
+        samples.into_iter().any(|i| self.at_sample(model, i))
+    }
+
+    fn at_sample(self, model: &Model, position: usize) -> bool {
+        let mark = mark_at(model, position);
+        let shown = mark.as_ref().and_then(state);
         match self {
             Self::Flags => shown.is_some_and(|s| s != FlagState::Suspect),
             Self::Undecided => shown == Some(FlagState::Unreviewed),
             Self::Suspects => shown == Some(FlagState::Suspect),
+            Self::Conflicts => mark.is_some_and(|m| m.conflict()),
             Self::All => shown.is_some(),
         }
     }
 }
 
 /// The next flag in the order of the queue, and whether the walk went over the end.
-fn neighbour(model: &Model, forward: bool, stops: Stops) -> Option<(usize, bool)> {
+pub(super) fn neighbour(model: &Model, forward: bool, stops: Stops) -> Option<(usize, bool)> {
     let queue = &model.state().queue;
-    let cursor = model.state().cursor;
+    let cursor = match model.review.unit {
+        Unit::Run => model.group(model.state().cursor).map_or(model.state().cursor, |g| g.start as usize),
+        Unit::Sample => model.state().cursor,
+    };
+    let by_time = model.review.sort == Sort::Time;
     let n = queue.len();
     // How many flags of the queue are behind the cursor, and where the walk starts.
-    let start = if model.sort == Sort::Time {
+    let start = if by_time {
         let after = queue.partition_point(|&p| (p as usize) <= cursor);
         let before = queue.partition_point(|&p| (p as usize) < cursor);
         if forward { after } else { (before + n).checked_sub(1)? % n.max(1) }
@@ -93,13 +106,14 @@ fn neighbour(model: &Model, forward: bool, stops: Stops) -> Option<(usize, bool)
         let index = if forward { (start + step) % n } else { (start % n + n - step) % n };
         let position = queue[index] as usize;
         let wrapped = if forward { position <= cursor } else { position >= cursor };
-        stops.at(model, position).then_some((position, wrapped && model.sort == Sort::Time))
+        stops.at(model, position).then_some((position, wrapped && by_time))
     })
 }
 
 fn go(model: &mut Model, forward: bool, stops: Stops) {
     let Some((position, wrapped)) = neighbour(model, forward, stops) else {
         let text = match (model.state().queue.is_empty(), stops) {
+            (_, Stops::Conflicts) => "no decision is against what the method says now",
             (true, _) => "no flags under these settings",
             (false, Stops::Undecided) => "every flag has been decided on",
             (false, Stops::Suspects) => "no suspect that nobody decided on",
@@ -115,135 +129,42 @@ fn go(model: &mut Model, forward: bool, stops: Stops) {
     }
 }
 
-/// A decision on the sample at `position`; none when nothing changes.
-fn change(model: &Model, position: usize, ruling: Option<Ruling>) -> Option<Change> {
-    let row = u32::try_from(model.series().row_of(position)?).ok()?;
-    let before = model.plan().decisions.get(row).cloned();
-    let note = before.as_ref().map(|d| d.note.clone()).unwrap_or_default();
-    let said = model.state().drawn.as_ref().and_then(|d| d.outcome.detection.judged.verdict.get(position).copied());
-    let after = ruling.map(|ruling| Decision { ruling, note, said });
-    (before != after).then_some(Change { row, before, after })
-}
-
-fn make(model: &mut Model, changes: Vec<Change>) -> Vec<Effect> {
-    let plan = model.shown;
-    commit(model, Edit::Decide { plan, changes })
-}
-
-fn decide(model: &mut Model, ruling: Option<Ruling>) -> Vec<Effect> {
-    let cursor = model.state().cursor;
-    if mark_at(model, cursor).is_none() {
-        model.say(Tone::Warning, "no flag under the cursor: n goes to the next, o flags this sample by hand");
-        return Vec::new();
+fn sort(model: &mut Model) {
+    let (next, by) = match model.review.sort {
+        Sort::Time => (Sort::Ratio, "ratio, largest first"),
+        Sort::Ratio => (Sort::State, "state, undecided first"),
+        Sort::State => (Sort::Run, "run, longest first"),
+        Sort::Run => (Sort::Time, "time"),
+    };
+    model.review.sort = next;
+    rearrange(model);
+    if next != Sort::Time
+        && let Some(&first) = model.state().queue.first()
+    {
+        navigate::go_to(model, first as usize);
     }
-    let effects = change(model, cursor, ruling).map(|c| make(model, vec![c])).unwrap_or_default();
-    let row = model.series().row(cursor) + 1;
-    let word = match ruling {
-        Some(Ruling::Outlier) => "accepted",
-        Some(Ruling::Normal) => "rejected",
-        None => "decision taken back:",
-    };
-    let mut text = format!("{word} row {row} · u undo");
-    if ruling.is_some() {
-        match neighbour(model, true, Stops::Undecided) {
-            Some((next, _)) => navigate::go_to(model, next),
-            None => text.push_str(" · every flag has been decided on"),
-        }
-    }
-    model.say(Tone::Done, text);
-    effects
+    model.say(Tone::Done, format!("queue by {by}"));
 }
 
-fn toggle(model: &mut Model) -> Vec<Effect> {
-    let cursor = model.state().cursor;
-    let Some(mark) = mark_at(model, cursor) else {
-        return decide(model, None);
+fn unit(model: &mut Model) {
+    let (next, words) = match model.review.unit {
+        Unit::Sample => (Unit::Run, "adjacent flags are one: n, a, r, x and space act on the whole run"),
+        Unit::Run => (Unit::Sample, "sample by sample"),
     };
-    let ruling = if mark.ruling == Some(Ruling::Outlier) { Ruling::Normal } else { Ruling::Outlier };
-    let effects = change(model, cursor, Some(ruling)).map(|c| make(model, vec![c])).unwrap_or_default();
-    let word = if ruling == Ruling::Outlier { "accepted" } else { "rejected" };
-    model.say(Tone::Done, format!("{word} · u undo"));
-    effects
+    model.review.unit = next;
+    rearrange(model);
+    model.say(Tone::Done, words);
 }
 
-fn by_hand(model: &mut Model) -> Vec<Effect> {
-    let cursor = model.state().cursor;
-    let (ruling, text) = match mark_at(model, cursor).as_ref().and_then(state) {
-        Some(FlagState::ByHand) => (None, "no longer flagged by hand"),
-        Some(FlagState::Unreviewed | FlagState::Accepted) => {
-            model.say(Tone::Warning, "already flagged: a accepts it, r rejects it");
-            return Vec::new();
-        }
-        Some(FlagState::Rejected | FlagState::Suspect) | None => (Some(Ruling::Outlier), "flagged by hand"),
-    };
-    let Some(change) = change(model, cursor, ruling) else { return Vec::new() };
-    let row = change.row + 1;
-    let effects = make(model, vec![change]);
-    model.say(Tone::Done, format!("{text}: row {row} · u undo"));
-    effects
-}
-
-/// A note on the decision about the sample under the cursor or, since deciding goes on to the next flag, on the one
-/// made last.
-fn note(model: &mut Model) -> Vec<Effect> {
-    let here = model.series().row_of(model.state().cursor).and_then(|r| u32::try_from(r).ok());
-    let shown = model.shown;
-    let last = match model.history.last() {
-        Some(Edit::Decide { plan, changes }) if *plan == shown => match changes.as_slice() {
-            [change] => Some(change.row),
-            _ => None,
-        },
-        _ => None,
-    };
-    let decided = |row: &u32| model.plan().decisions.get(*row).is_some();
-    match here.filter(decided).or(last.filter(decided)) {
-        Some(row) => {
-            let text = model.plan().decisions.get(row).map(|d| d.note.clone()).unwrap_or_default();
-            prompt(model, PromptKind::Note(row), &text)
-        }
-        None => {
-            model.say(Tone::Warning, "a note goes with a decision: a, r or o first");
-            Vec::new()
-        }
+fn rearrange(model: &mut Model) {
+    for plan in 0..model.channels.len() {
+        queue::arrange(model, plan);
     }
 }
 
-/// Puts a note on the decision about `row`.
-pub(super) fn set_note(model: &mut Model, row: u32, text: &str) -> Vec<Effect> {
-    let Some(before) = model.plan().decisions.get(row).cloned() else { return Vec::new() };
-    let after = Decision { note: text.trim().to_owned(), ..before.clone() };
-    if before == after {
-        return Vec::new();
-    }
-    let effects = make(model, vec![Change { row, before: Some(before), after: Some(after) }]);
-    model.say(Tone::Done, format!("note on row {} · u undo", row + 1));
-    effects
-}
-
-fn in_view(model: &mut Model, ruling: Option<Ruling>) -> Vec<Effect> {
-    let range = model.state().view.positions(Axis::Time(&model.series().t));
-    let inside = model.state().queue.iter().map(|&p| p as usize).filter(|p| range.contains(p));
-    let changes: Vec<Change> = {
-        let mut positions: Vec<usize> = inside.collect();
-        positions.sort_unstable();
-        // A suspect may be a real change of the trajectory: it is not accepted in passing.
-        let passed_over = |p: &usize| {
-            let shown = mark_at(model, *p).as_ref().and_then(state);
-            ruling == Some(Ruling::Outlier) && shown == Some(FlagState::Suspect)
-        };
-        positions.into_iter().filter(|p| !passed_over(p)).filter_map(|p| change(model, p, ruling)).collect()
-    };
-    if changes.is_empty() {
-        model.say(Tone::Warning, "no flag in view to decide on");
-        return Vec::new();
-    }
-    let count = changes.len();
-    let effects = make(model, changes);
-    let word = match ruling {
-        Some(Ruling::Outlier) => "accepted",
-        Some(Ruling::Normal) => "rejected",
-        None => "decisions taken back:",
-    };
-    model.say(Tone::Done, format!("{word} {count} flags in view · u undo"));
-    effects
+/// Whether a decision goes on to the next flag.
+pub(super) fn set_auto_advance(model: &mut Model, on: bool) {
+    model.review.auto_advance = on;
+    let words = if on { "goes on to the next flag" } else { "stays where it is; n goes on" };
+    model.say(Tone::Done, format!("auto-advance {}: a decision {words}", if on { "on" } else { "off" }));
 }

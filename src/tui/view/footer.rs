@@ -7,7 +7,7 @@ use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
 use super::super::keys::{Binding, Context, KEYMAP, shown};
-use super::super::model::{Model, Overlay};
+use super::super::model::{Model, Overlay, Prompt, PromptKind};
 use super::clear;
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
@@ -99,6 +99,10 @@ fn overlay_items(overlay: &Overlay) -> Option<Vec<(String, &'static str)>> {
         Overlay::None => return None,
         Overlay::Help(..) => &[("type", "to filter"), ("↑↓", "scroll"), ("Esc", "close")],
         Overlay::Picker(_) => &[("type", "to filter"), ("↑↓", "choose"), ("Enter", "take it"), ("Esc", "leave it")],
+        Overlay::Journal(_) => &[("↑↓", "choose"), ("Enter", "go there"), ("Esc", "close")],
+        Overlay::Prompt(Prompt { kind: PromptKind::Note, .. }) => {
+            &[("↑↓", "reason"), ("type", "in your words"), ("Enter", "keep it"), ("Esc", "leave it")]
+        }
         Overlay::Prompt(_) => &[("Enter", "do it"), ("Tab", "complete"), ("Esc", "leave it")],
         Overlay::Recover(found) if found.first().is_some_and(|f| f.missing.is_some()) => {
             &[("d", "drop it"), ("Esc", "decide later")]

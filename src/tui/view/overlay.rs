@@ -10,7 +10,7 @@ use tui_input::Input;
 use super::super::keys::{Context, KEYMAP, shown};
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
 use super::super::plot::{FlagState, Glyphs};
-use super::super::update::{COMMANDS, narrowed, value_text};
+use super::super::update::{COMMANDS, narrowed, note, value_text};
 use super::{clear, fit};
 use crate::track::printable;
 
@@ -21,6 +21,7 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         Overlay::Picker(picker) => list(model, picker, area, buffer),
         Overlay::Prompt(prompt) => line(model, prompt, area, buffer),
         Overlay::ConfirmQuit => confirm(model, area, buffer),
+        Overlay::Journal(at) => super::journal::draw(model, *at, area, buffer),
         Overlay::Recover(found) => super::recover::draw(model, found, area, buffer),
     }
 }
@@ -185,11 +186,14 @@ fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
             let knob = model.knob();
             format!("{} (now {}): ", knob.name(), value_text(&model.plan().setup, knob))
         }
-        PromptKind::Note(row) => format!("note on row {}: ", row + 1),
+        PromptKind::Note => note::subject_words(model),
     };
     let row = Rect { y: area.bottom() - 2, height: 1, ..area };
     clear(row, buffer);
     typed(model, &before, &prompt.input).render(row, buffer);
+    if prompt.kind == PromptKind::Note && prompt.error.is_none() {
+        super::reasons::draw(model, prompt, row, buffer);
+    }
     if let Some(error) = &prompt.error {
         let width = usize::from(area.width).saturating_sub(2).max(1);
         let lines = super::parameters::wrapped(&printable(error), width);

@@ -124,7 +124,8 @@ impl<'a> Plots<'a> {
             })
         });
         let cursor = self.series.y.get(state.cursor).map(|&y| Cursor { position: state.cursor, y });
-        let widget = TracePlot { columns, theme, glyphs, layers: plot::Layers::ALL, cursor, selection: None };
+        let selection = model.selection();
+        let widget = TracePlot { columns, theme, glyphs, layers: plot::Layers::ALL, cursor, selection };
         let note = widget.y_note();
         let words = self.trace_words(columns, &note);
         let words: Vec<Words<'_>> = words.iter().map(|w| Words::styled(w.as_str(), theme.dim)).collect();

@@ -1,4 +1,4 @@
-//! The queue: the flags in order, the current one in the middle.
+//! The queue: the flags in order, one row for each sample or for each run.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -6,68 +6,128 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
-use super::super::model::{Model, Sort};
-use super::super::plot::FlagState;
-use super::super::update::mark_at;
+use super::super::layout::queue_rows;
+use super::super::model::{Group, Model, Sort, Unit};
+use super::super::plot::{FlagState, Glyphs};
+use super::super::update::{mark_at, queue};
 use super::{clear, heading, several_days, thousands};
 use crate::plot::state;
+use crate::track::Series;
+
+/// Columns of the rows of a run and of its length.
+const ROWS: usize = 17;
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     clear(area, buffer);
     let theme = &model.theme;
-    let queue = &model.state().queue;
-    let by = match model.sort {
+    let all = &model.state().queue;
+    let by = match model.review.sort {
         Sort::Time => "by time",
         Sort::Ratio => "by ratio",
         Sort::State => "by state",
+        Sort::Run => "by run",
     };
-    let words = [Span::styled(format!("{by}  {} in all ", thousands(queue.len())), theme.dim)];
+    let what = if model.review.unit == Unit::Run { "runs" } else { "in all" };
+    let words = [Span::styled(format!("{by}  {} {what} ", thousands(all.len())), theme.dim)];
     let mut body = heading(model, Panel::Queue, &words, area, buffer);
-    if queue.is_empty() {
+    if all.is_empty() {
         Line::styled(" nothing is flagged", theme.dim).render(body, buffer);
         return;
     }
-    if body.height >= 6 {
-        let in_scales = model.state().drawn.as_ref().is_some_and(|d| d.in_scales());
-        let unit = if in_scales { "scales" } else { "ratio" };
-        Line::styled(format!(" {:>9}  {:>11} {unit:>7}", "row", "time"), theme.dim)
-            .render(Rect { height: 1, ..body }, buffer);
+    let rows = queue_rows(area);
+    let (shown, current) = queue::window(model, rows);
+    let wide = body.width >= 52;
+    if usize::from(body.height) > rows {
+        names(model, shown.start > 0, wide).render(Rect { height: 1, ..body }, buffer);
         body = Rect { y: body.y + 1, height: body.height - 1, ..body };
     }
-    let cursor = model.state().cursor;
-    let current = if model.sort == Sort::Time {
-        queue.partition_point(|&p| (p as usize) < cursor).min(queue.len() - 1)
-    } else {
-        queue.iter().position(|&p| p as usize == cursor).unwrap_or(0)
-    };
-    let rows = usize::from(body.height);
-    let from = current.saturating_sub(rows / 2).min(queue.len().saturating_sub(rows));
     let series = model.series();
-    for (row, &position) in queue.iter().skip(from).take(rows).enumerate() {
-        let i = position as usize;
-        let here = i == cursor;
-        let shown = mark_at(model, i).as_ref().and_then(state);
-        let ratio = model.state().drawn.as_ref().and_then(|d| d.residual(&series, i));
-        let ratio = ratio.map_or_else(|| "-".to_owned(), ratio_text);
-        let time = match (several_days(model), model.track.time.date(series.t[i])) {
-            // Month and day, and the minute.
-            (true, Some(date)) => {
-                let clock = model.track.time.label(series.t[i], 0);
-                format!("{} {}", date.get(5..).unwrap_or(&date), clock.get(..5).unwrap_or(&clock))
-            }
-            _ => model.track.time.label(series.t[i], 1),
+    let days = several_days(model);
+    for (row, index) in shown.enumerate() {
+        let item = match (model.review.unit, all.get(index)) {
+            (_, None) => continue,
+            (Unit::Sample, Some(&start)) => Group { start, length: 1 },
+            (Unit::Run, Some(&start)) => model.group(start as usize).unwrap_or(Group { start, length: 1 }),
         };
-        let glyph = shown.map_or(' ', |s| model.glyphs.flag(s));
-        let text = format!("{}{:>9}  {time:>11} {ratio:>7} ", if here { '>' } else { ' ' }, series.row(i) + 1);
-        let style = match (here, shown) {
-            (true, _) => theme.focus,
-            (false, Some(FlagState::Unreviewed | FlagState::ByHand)) => theme.text,
-            (false, _) => theme.dim,
-        };
-        let mark = shown.map_or(theme.dim, |s| theme.flag(s));
-        let line = Line::from(vec![Span::styled(text, style), Span::styled(glyph.to_string(), mark)]);
+        let here = index == current && item.positions().contains(&model.state().cursor);
+        let line = entry(model, &series, item, (here, days, wide));
         let row = u16::try_from(row).unwrap_or(u16::MAX);
         line.render(Rect { y: body.y + row, height: 1, ..body }, buffer);
+    }
+}
+
+/// The names of the columns; the arrow says that there are flags above.
+fn names(model: &Model, above: bool, wide: bool) -> Line<'static> {
+    let in_scales = model.state().drawn.as_ref().is_some_and(|d| d.in_scales());
+    let unit = if in_scales { "scales" } else { "ratio" };
+    let arrow = match (above, model.glyphs) {
+        (false, _) => ' ',
+        (true, Glyphs::Unicode) => '↑',
+        (true, _) => '^',
+    };
+    let text = match model.review.unit {
+        Unit::Sample => format!("{arrow}{:>9}  {:>11} {unit:>7}", "row", "time"),
+        Unit::Run if wide => format!("{arrow}{:>ROWS$}  {:>11} {unit:>7}", "rows", "time"),
+        Unit::Run => format!("{arrow}{:>ROWS$} {unit:>7}", "rows"),
+    };
+    Line::styled(text, model.theme.dim)
+}
+
+/// A row of the panel: a sample, or a run.
+fn entry(model: &Model, series: &Series<'_>, item: Group, (here, days, wide): (bool, bool, bool)) -> Line<'static> {
+    let theme = &model.theme;
+    let marks: Vec<_> = item.positions().filter_map(|i| mark_at(model, i)).collect();
+    let states: Vec<FlagState> = marks.iter().filter_map(state).collect();
+    let shown = FlagState::BY_URGENCY.into_iter().find(|s| states.contains(s));
+    let conflict = marks.iter().any(crate::session::Mark::conflict);
+    let residual = |i: usize| model.state().drawn.as_ref().and_then(|d| d.residual(series, i));
+    let worst = item.positions().filter_map(residual).max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let ratio = worst.map_or_else(|| "-".to_owned(), ratio_text);
+    let first = item.start as usize;
+    let time = || time_text(model, series, first, days);
+    let cursor = if here { '>' } else { ' ' };
+    let text = match model.review.unit {
+        Unit::Sample => format!("{cursor}{:>9}  {:>11} {ratio:>7} ", series.row(first) + 1, time()),
+        Unit::Run if wide => format!("{cursor}{:>ROWS$}  {:>11} {ratio:>7} ", rows_text(model, series, item), time()),
+        Unit::Run => format!("{cursor}{:>ROWS$} {ratio:>7} ", rows_text(model, series, item)),
+    };
+    let style = match (here, shown) {
+        (true, _) => theme.focus,
+        (false, Some(FlagState::Unreviewed | FlagState::ByHand)) => theme.text,
+        (false, _) => theme.dim,
+    };
+    let mark = shown.map_or(theme.dim, |s| theme.flag(s));
+    let glyph = shown.map_or(' ', |s| model.glyphs.flag(s));
+    let mut spans = vec![Span::styled(text, style), Span::styled(glyph.to_string(), mark)];
+    if conflict {
+        spans.push(Span::styled("!", theme.warning));
+    }
+    Line::from(spans)
+}
+
+/// The rows of a run, and how many they are.
+fn rows_text(model: &Model, series: &Series<'_>, item: Group) -> String {
+    let samples = item.positions();
+    let (first, last) = (series.row(samples.start) + 1, series.row(samples.end - 1) + 1);
+    let times = if model.glyphs == Glyphs::Unicode { '×' } else { 'x' };
+    match item.length {
+        1 => format!("{first} {times}1"),
+        n => {
+            let full = format!("{first}..{last} {times}{n}");
+            // The length says where it ends.
+            if full.chars().count() > ROWS { format!("{first}.. {times}{n}") } else { full }
+        }
+    }
+}
+
+fn time_text(model: &Model, series: &Series<'_>, i: usize, days: bool) -> String {
+    match (days, model.track.time.date(series.t[i])) {
+        // Month and day, and the minute.
+        (true, Some(date)) => {
+            let clock = model.track.time.label(series.t[i], 0);
+            format!("{} {}", date.get(5..).unwrap_or(&date), clock.get(..5).unwrap_or(&clock))
+        }
+        _ => model.track.time.label(series.t[i], 1),
     }
 }
 

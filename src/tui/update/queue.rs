@@ -1,0 +1,119 @@
+//! The queue: which flags are in it, in which order, and which of them the panel shows.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::super::layout;
+use super::super::model::{Group, Model, Sort, Unit};
+use crate::method::Verdict;
+use crate::plot::{Drawn, FlagState, state};
+use crate::session::Mark;
+use crate::track::Series;
+
+/// Brings the queue of a channel into order.
+pub(super) fn arrange(model: &mut Model, plan: usize) {
+    let channel = model.channels[plan].channel;
+    let samples = Arc::clone(&model.channels[plan].samples);
+    let series = samples.series(&model.track.channels[channel], &model.track.time);
+    let Some(drawn) = model.channels[plan].drawn.clone() else { return };
+    let groups = groups(&drawn.outcome.marks, &drawn.outcome.detection.segments);
+    let single = |m: &Mark| Group { start: m.position, length: 1 };
+    let mut items: Vec<Group> = match model.review.unit {
+        Unit::Sample => drawn.outcome.marks.iter().map(single).collect(),
+        Unit::Run => groups.clone(),
+    };
+    match model.review.sort {
+        Sort::Time => {}
+        Sort::Ratio => items.sort_by(|a, b| worst(&drawn, &series, *b).total_cmp(&worst(&drawn, &series, *a))),
+        Sort::State => items.sort_by_key(|item| urgency(&drawn, *item)),
+        Sort::Run => items.sort_by_key(|item| {
+            let after = groups.partition_point(|g| g.start <= item.start);
+            std::cmp::Reverse(after.checked_sub(1).and_then(|at| groups.get(at)).map_or(0, |g| g.length))
+        }),
+    }
+    let state = &mut model.channels[plan];
+    state.queue = items.into_iter().map(|item| item.start).collect();
+    state.groups = groups;
+}
+
+/// Adjacent marks within a segment; suspects are a class of their own.
+fn groups(marks: &[Mark], segments: &[Range<usize>]) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    let mut class = None;
+    for mark in marks {
+        let own = state(mark) == Some(FlagState::Suspect);
+        let cut = segments.binary_search_by_key(&(mark.position as usize), |s| s.start).is_ok();
+        match groups.last_mut() {
+            Some(g) if g.start + g.length == mark.position && class == Some(own) && !cut => g.length += 1,
+            _ => groups.push(Group { start: mark.position, length: 1 }),
+        }
+        class = Some(own);
+    }
+    groups
+}
+
+/// The largest residual of some flags, whatever its sign.
+fn worst(drawn: &Drawn, series: &Series<'_>, item: Group) -> f64 {
+    item.positions().filter_map(|i| drawn.residual(series, i)).fold(0.0, |worst, r| worst.max(r.abs()))
+}
+
+/// What needs the analyst most comes first.
+fn urgency(drawn: &Drawn, item: Group) -> u8 {
+    let rank = |mark: &Mark| match mark.ruling {
+        _ if mark.conflict() => 0,
+        None if mark.verdict == Verdict::Outlier => 1,
+        None => 2,
+        Some(_) => 3,
+    };
+    item.positions().filter_map(|i| drawn.outcome.mark(i)).map(rank).min().unwrap_or(3)
+}
+
+/// The part of the queue that a panel of `rows` rows shows, and the place of the current flag in the queue (of the
+/// next one, where the cursor is on none). Rows stay where they are as long as the current flag is among them: a flag
+/// that comes or goes above them moves nothing.
+#[must_use]
+pub(in crate::tui) fn window(model: &Model, rows: usize) -> (Range<usize>, usize) {
+    let queue = &model.state().queue;
+    let cursor = model.state().cursor;
+    let n = queue.len();
+    let at_or_after = |position: usize| queue.partition_point(|&p| (p as usize) < position).min(n.saturating_sub(1));
+    let by_time = model.review.sort == Sort::Time;
+    let find = |position: usize| queue.iter().position(|&p| p as usize == position);
+    let head = match model.review.unit {
+        Unit::Run => model.group(cursor).map_or(cursor, |g| g.start as usize),
+        Unit::Sample => cursor,
+    };
+    let top = model.state().top as usize;
+    let current = if by_time { at_or_after(head) } else { find(head).unwrap_or(0) };
+    let from = if by_time { Some(at_or_after(top)) } else { find(top) };
+    let last = n.saturating_sub(rows);
+    let from = match from.map(|from| from.min(last)) {
+        Some(from) if (from..from + rows).contains(&current) => from,
+        _ => current.saturating_sub(rows / 2).min(last),
+    };
+    (from..n.min(from + rows), current)
+}
+
+/// Remembers which flag stands in the first row of the panel.
+pub(super) fn keep_in_sight(model: &mut Model) {
+    let Some(area) = layout::arrange(model).and_then(|areas| areas.queue) else { return };
+    let (shown, _) = window(model, layout::queue_rows(area));
+    if let Some(&top) = model.state().queue.get(shown.start) {
+        model.state_mut().top = top;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_end_at_holes_cuts_and_suspects() {
+        let mark = |position, verdict| Mark { position, verdict, ruling: None, said: None };
+        let wild = |position| mark(position, Verdict::Outlier);
+        let marks = [wild(2), wild(3), mark(4, Verdict::Suspect), wild(6), wild(7), wild(8), wild(9)];
+        let found = groups(&marks, &[0..8, 8..20]);
+        let lengths: Vec<(u32, u32)> = found.iter().map(|g| (g.start, g.length)).collect();
+        assert_eq!(lengths, [(2, 2), (4, 1), (6, 2), (8, 2)]);
+    }
+}
