@@ -38,6 +38,7 @@ pub mod layout;
 pub mod message;
 pub mod model;
 pub mod office;
+pub mod picture;
 pub mod plot;
 mod signals;
 mod terminal;

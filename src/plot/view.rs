@@ -42,6 +42,27 @@ impl<'a> Axis<'a> {
         }
     }
 
+    /// The same samples by position where this is by time, and by time where it is by position.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Time(t) => Self::Position(t),
+            Self::Position(t) => Self::Time(t),
+        }
+    }
+
+    /// Where `x` of this axis lies on the other one: in proportion between two neighbours, and at the first or last
+    /// sample beyond them.
+    #[must_use]
+    pub fn on_other(self, x: f64) -> f64 {
+        let last = self.len().saturating_sub(1);
+        let after = self.first_at(x).clamp(1, last.max(1));
+        let (a, b) = (self.x(after - 1), self.x(after));
+        let (c, d) = (self.other().x(after - 1), self.other().x(after));
+        let share = ((x - a) / (b - a)).clamp(0.0, 1.0);
+        if share.is_nan() || d.is_nan() { c } else { c + (d - c) * share }
+    }
+
     /// How many samples lie before `x`: the position of the first at or after it.
     #[must_use]
     pub fn first_at(self, x: f64) -> usize {
@@ -121,6 +142,14 @@ impl View {
         first..axis.first_after(self.to).max(first)
     }
 
+    /// The same samples on the other axis.
+    #[must_use]
+    pub fn on_other(self, axis: Axis<'_>) -> Self {
+        let view = Self { from: axis.on_other(self.from), to: axis.on_other(self.to) };
+        // Between two samples far apart there may be nothing to see, and of a single sample there is no width.
+        if view.width() > 0.0 { view } else { Self::whole(axis.other()) }
+    }
+
     /// The same view `factor` times as wide, with `x` staying where it is on the screen.
     #[must_use]
     pub fn zoomed(self, x: f64, factor: f64) -> Self {
@@ -162,6 +191,21 @@ mod tests {
             prop_assert_eq!(Axis::Time(&t).first_after(x), count(&|t| t <= x));
             let middle = t.get(t.len() / 2).copied().unwrap_or(0.0);
             prop_assert_eq!(Axis::Time(&t).first_at(middle), count(&|t| t < middle));
+        }
+    }
+
+    #[test]
+    fn a_view_goes_to_the_other_axis_and_back() {
+        let t = [0.0, 1.0, 2.0, 10.0, 11.0];
+        let axis = Axis::Time(&t);
+        // Halfway between the third and the fourth sample by time is halfway by number.
+        assert_eq!(View { from: 1.0, to: 6.0 }.on_other(axis), View { from: 1.0, to: 2.5 });
+        assert_eq!(View { from: 1.0, to: 2.5 }.on_other(axis.other()), View { from: 1.0, to: 6.0 });
+        assert_eq!(View::whole(axis).on_other(axis), View { from: 0.0, to: 4.0 });
+        assert_eq!(View { from: 20.0, to: 30.0 }.on_other(axis), View { from: 0.0, to: 4.0 }, "nothing is there");
+        for t in [&[][..], &[7.0]] {
+            let whole = View::whole(Axis::Time(t)).on_other(Axis::Time(t));
+            assert!(whole.width() > 0.0, "{whole:?}");
         }
     }
 

@@ -36,6 +36,7 @@ pub enum Action {
     YFit,
     Layers,
     BeforeAfter,
+    XAxis,
     NextChannel,
     Channels,
     Methods,

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::action::Panel;
 use super::advice::Advice;
-use super::plot::Glyphs;
+use super::plot::{Axis, Glyphs};
 use super::theme::Theme;
 use crate::param::Param;
 use crate::repair;
@@ -19,7 +19,7 @@ mod channel;
 mod overlay;
 mod review;
 
-pub use channel::{ChannelState, Layers, YMode};
+pub use channel::{ChannelState, YMode};
 pub use overlay::{Overlay, Picker, PickerKind, Prompt, PromptKind};
 pub use review::{Group, Reviewing, Sort, Unit};
 
@@ -62,6 +62,8 @@ pub struct Model {
     pub awaited: Option<u64>,
     /// How the flags are reviewed.
     pub review: Reviewing,
+    /// True when x is the number of the sample, false when it is its time.
+    pub by_number: bool,
     /// Whether the next quit is meant.
     pub interrupted: bool,
     /// Edits of the document that the journal does not have yet, as [`Edit::touched`] says.
@@ -125,6 +127,7 @@ impl Model {
             glyphs,
             awaited: None,
             review: Reviewing::default(),
+            by_number: false,
             interrupted: false,
             unjournalled: Vec::new(),
         }
@@ -158,6 +161,18 @@ impl Model {
     pub fn series(&self) -> Series<'_> {
         let state = self.state();
         state.samples.series(&self.track.channels[state.channel], &self.track.time)
+    }
+
+    /// Where samples lie along x.
+    #[must_use]
+    pub fn axis<'s>(&self, series: &'s Series<'_>) -> Axis<'s> {
+        if self.by_number { Axis::Position(&series.t) } else { Axis::Time(&series.t) }
+    }
+
+    /// The positions of the samples in view.
+    #[must_use]
+    pub fn in_view(&self) -> std::ops::Range<usize> {
+        self.state().view.positions(self.axis(&self.series()))
     }
 
     /// True when the document has changed since it was saved.

@@ -1,8 +1,8 @@
 //! Plots of records with up to 10^7 samples in a terminal, which cannot hide a wild point.
 //!
 //! Samples become columns ([`Columns`]) through pyramids of extremes ([`Pyramid`]), columns become cells of a
-//! buffer. All of it is pure: the same inputs give the same cells, and nothing is remembered between frames. What
-//! the plots promise, and `tests/plot_laws.rs` checks:
+//! buffer. All of it is pure: the same inputs give the same cells. Columns are kept from frame to frame for as long
+//! as what they are made of stays ([`Memo`]). What the plots promise, and `tests/plot_laws.rs` checks:
 //!
 //! 1. every flag in view counts on the rail, in its column;
 //! 2. every finite flag has its cell in a flag's style, or an arrow at the edge;
@@ -40,6 +40,7 @@
 //! ```
 
 mod glyphs;
+mod memo;
 mod overview;
 mod paint;
 mod rail;
@@ -53,6 +54,7 @@ pub use crate::plot::{
 };
 use crate::plot::{columns, dots, flags, labels, pyramid, scale, view};
 pub use glyphs::Glyphs;
+pub use memo::Memo;
 pub use overview::Overview;
 pub use rail::FlagRail;
 pub use residual::ResidualPlot;

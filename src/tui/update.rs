@@ -18,6 +18,7 @@ mod navigate;
 pub(super) mod note;
 mod overlay;
 pub(super) mod queue;
+mod pictures;
 mod recover;
 mod review;
 mod tune;
@@ -26,6 +27,7 @@ pub use command::{COMMANDS, Command};
 pub use files::{default_export, default_session};
 use history::{commit, set_up};
 pub use overlay::{Entry, narrowed};
+pub(super) use pictures::layer_names;
 pub(super) use review::mark_at;
 pub(super) use tune::value_text;
 
@@ -144,10 +146,10 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
         | Action::AcceptView
         | Action::RejectView
         | Action::ClearView => decide::act(model, action),
-        _ => {
+        _ => pictures::act(model, action).unwrap_or_else(|| {
             navigate::act(model, action);
             Vec::new()
-        }
+        }),
     }
 }
 
@@ -197,6 +199,7 @@ fn analysed(
             // What other settings gave would pass for the result of these.
             let state = &mut model.channels[plan];
             (state.drawn, state.queue, state.flags) = (None, Vec::new(), super::plot::Flags::default());
+            state.results += 1;
             state.error = Some(text.clone());
             model.say(Tone::Error, text);
         }

@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::super::advice::Advice;
-use super::super::plot::{Axis, Flags, View};
 use super::Group;
+use super::super::picture::Pictures;
+use super::super::plot::{Axis, Flags, Layers, View};
 use crate::param::Settings;
 use crate::plot::Drawn;
 use crate::session::Plan;
@@ -44,6 +45,12 @@ pub struct ChannelState {
     pub y_fit: YMode,
     /// Which layers are drawn.
     pub layers: Layers,
+    /// True when the record is shown as it will be after repair.
+    pub after: bool,
+    /// Counts the results that were shown.
+    pub results: u64,
+    /// What was reduced for the last frame.
+    pub pictures: Pictures,
     /// Position of the sample under the cursor.
     pub cursor: usize,
     /// Index of the active knob.
@@ -53,7 +60,7 @@ pub struct ChannelState {
 }
 
 /// How the y range is chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum YMode {
     /// From the samples that are kept: outliers do not squash the curve.
     #[default]
@@ -62,20 +69,8 @@ pub enum YMode {
     All,
     /// From the middle 99.8 % of the samples.
     Robust,
-}
-
-/// Which layers are drawn over the curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Layers {
-    /// The band of expected value and tolerance, and repaired values.
-    #[default]
-    Band,
-    /// The expected value alone, and repaired values.
-    Expected,
-    /// The curve alone.
-    Raw,
-    /// The record after repair: outliers in their new place.
-    After,
+    /// This range, whatever is in view.
+    Fixed(f64, f64),
 }
 
 impl ChannelState {
@@ -99,7 +94,10 @@ impl ChannelState {
             view,
             views: Vec::new(),
             y_fit: YMode::default(),
-            layers: Layers::default(),
+            layers: Layers::ALL,
+            after: false,
+            results: 0,
+            pictures: Pictures::default(),
             cursor: 0,
             // The multiplier is what is turned most; the first rows are the method (and its rate).
             knob: k.map_or(0, |k| k + 1 + usize::from(plan.setup.method.about().needs_rate)),

@@ -29,6 +29,12 @@ pub struct Layers {
 impl Layers {
     /// All of them.
     pub const ALL: Self = Self { raw: true, expected: true, band: true, repaired: true };
+
+    /// The curve alone.
+    pub const RAW: Self = Self { raw: true, expected: false, band: false, repaired: false };
+
+    /// None of them.
+    pub const NONE: Self = Self { raw: false, ..Self::RAW };
 }
 
 /// The sample under the cursor.

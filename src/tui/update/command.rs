@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::super::message::Effect;
 use super::super::model::{Model, Tone};
-use super::{Action, act, files, navigate, review, show, tune};
+use super::{Action, act, files, navigate, pictures, review, show, tune};
 use crate::error::nearest;
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
@@ -62,6 +62,8 @@ pub static COMMANDS: &[Command] = &[
         }
         other => Err(format!("{}: on or off", printable(other))),
     }),
+    command("y", "kept|all|robust|fixed|LOW HIGH", "choose the vertical range", pictures::y_command),
+    command("layers", "[+-]NAME ...", "show these layers: raw, expected, band, repaired", pictures::layers_command),
     command("help", "", "keys and commands", |m, _| Ok(act(m, Action::Help))),
 ];
 
@@ -97,6 +99,7 @@ pub(super) fn complete(model: &Model, line: &str) -> Option<String> {
         "set" => setup.settings.iter().chain(setup.repair.iter().skip(1)).map(|(p, _)| p.key.to_owned()).collect(),
         "method" => METHODS.iter().map(|m| m.about().id.to_owned()).collect(),
         "repair" => REPAIRS.iter().map(|r| r.id.to_owned()).collect(),
+        "y" => ["kept", "all", "robust", "fixed"].map(String::from).to_vec(),
         "preset" => vec!["default".into(), "paper".into()],
         "channel" => model.session.plans.iter().map(|p| p.channel.clone()).collect(),
         _ => return None,

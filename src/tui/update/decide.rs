@@ -222,7 +222,7 @@ fn by_hand(model: &mut Model) -> Vec<Effect> {
 }
 
 fn in_view(model: &mut Model, ruling: Option<Ruling>) -> Vec<Effect> {
-    let range = model.state().view.positions(Axis::Time(&model.series().t));
+    let range = model.in_view();
     let positions = flags_in(model, &range);
     let spared = suspects(model, &positions, ruling);
     let wanted = positions.into_iter().filter(|&p| spared == 0 || !is_suspect(model, p));

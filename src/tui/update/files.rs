@@ -81,6 +81,7 @@ pub(super) fn arrange(model: &mut Model, plan: usize, drawn: Drawn) {
     let flags = Flags::new(&drawn.flags(&series));
     let state = &mut model.channels[plan];
     state.flags = flags;
+    state.results += 1;
     state.drawn = Some(Arc::new(drawn));
     state.stale = false;
     state.error = None;

@@ -2,8 +2,8 @@
 
 use super::super::action::Action;
 use super::super::layout;
-use super::super::model::{Layers, Model, Tone, YMode};
-use super::super::plot::{Axis, View};
+use super::super::model::{Model, Tone};
+use super::super::plot::View;
 
 /// Zooming in stops at so few nominal intervals across the plot.
 const NARROWEST: f64 = 6.0;
@@ -35,38 +35,17 @@ pub(super) fn act(model: &mut Model, action: Action) {
         Action::PreviousSample => walk(model, false),
         Action::First => go_to(model, 0),
         Action::Last => go_to(model, usize::MAX),
-        Action::YFit => {
-            let (mode, words) = match model.state().y_fit {
-                YMode::Kept => (YMode::All, "all samples"),
-                YMode::All => (YMode::Robust, "the middle 99.8 % of the samples"),
-                YMode::Robust => (YMode::Kept, "the kept samples"),
-            };
-            model.state_mut().y_fit = mode;
-            model.say(Tone::Done, format!("vertical range from {words}"));
-        }
-        Action::Layers => {
-            let (layers, words) = match model.state().layers {
-                Layers::Band => (Layers::Expected, "curve, expected value and repair"),
-                Layers::Expected => (Layers::Raw, "curve alone"),
-                Layers::Raw | Layers::After => (Layers::Band, "curve, tolerance band and repair"),
-            };
-            model.state_mut().layers = layers;
-            model.say(Tone::Done, words);
-        }
-        Action::BeforeAfter => {
-            let (layers, words) = match model.state().layers {
-                Layers::After => (Layers::Band, "before repair"),
-                _ => (Layers::After, "after repair: as it will be written"),
-            };
-            model.state_mut().layers = layers;
-            model.say(Tone::Done, words);
-        }
         _ => {}
     }
 }
 
 fn whole(model: &Model) -> View {
-    View::whole(Axis::Time(&model.series().t))
+    View::whole(model.axis(&model.series()))
+}
+
+/// The nominal interval in units of x.
+fn nominal_step(model: &Model) -> f64 {
+    if model.by_number { 1.0 } else { model.series().interval }
 }
 
 /// Shows another part of the record; `Z` leads back.
@@ -105,8 +84,7 @@ fn carry_cursor(model: &mut Model, seconds: f64) {
 
 /// The cursor stays on the screen.
 fn cursor_into_view(model: &mut Model) {
-    let view = model.state().view;
-    let range = view.positions(Axis::Time(&model.series().t));
+    let range = model.in_view();
     if !range.is_empty() {
         let state = model.state_mut();
         state.cursor = state.cursor.clamp(range.start, range.end - 1);
@@ -115,9 +93,12 @@ fn cursor_into_view(model: &mut Model) {
 
 fn zoom(model: &mut Model, factor: f64) {
     let series = model.series();
-    let Some(&at) = series.t.get(model.state().cursor) else { return };
+    let at = model.axis(&series).x(model.state().cursor);
+    if at.is_nan() {
+        return;
+    }
     let view = model.state().view;
-    let narrowest = NARROWEST * series.interval;
+    let narrowest = NARROWEST * nominal_step(model);
     let factor = if view.width() * factor < narrowest { narrowest / view.width() } else { factor };
     if (1.0..2.0).contains(&factor) {
         model.say(Tone::Warning, "this is as near as it goes");
@@ -138,11 +119,11 @@ fn zoom_flag(model: &mut Model) {
         return;
     }
     let last = series.len() - 1;
-    let t = |i: usize| series.t[i.min(last)];
+    let x = |i: usize| model.axis(&series).x(i.min(last));
     // Neighbours across a long gap would make the view wide and empty.
-    let reach = 2.0 * series.interval * (AROUND_RUN as f64);
-    let from = t(start.saturating_sub(AROUND_RUN)).max(t(start) - reach);
-    let to = t(end + AROUND_RUN).min(t(end) + reach);
+    let reach = 2.0 * nominal_step(model) * (AROUND_RUN as f64);
+    let from = x(start.saturating_sub(AROUND_RUN)).max(x(start) - reach);
+    let to = x(end + AROUND_RUN).min(x(end) + reach);
     let view = View { from, to };
     if view.width() > 0.0 {
         let view = view.within(whole(model));
@@ -155,15 +136,15 @@ pub(super) fn go_to(model: &mut Model, position: usize) {
     let series = model.series();
     let Some(last) = series.len().checked_sub(1) else { return };
     let position = position.min(last);
-    let t = series.t[position];
+    let x = model.axis(&series).x(position);
     let view = model.state().view;
     let margin = view.width() / 20.0;
     let all = whole(model);
     let state = model.state_mut();
     state.cursor = position;
-    if t < view.from + margin || t > view.to - margin {
+    if x < view.from + margin || x > view.to - margin {
         let half = view.width() / 2.0;
-        state.view = View { from: t - half, to: t + half }.within(all);
+        state.view = View { from: x - half, to: x + half }.within(all);
     }
 }
 
@@ -172,15 +153,19 @@ fn walk(model: &mut Model, forward: bool) {
     let series = model.series();
     let cursor = model.state().cursor;
     let view = model.state().view;
-    let Some(&now) = series.t.get(cursor) else { return };
+    let axis = model.axis(&series);
+    let now = axis.x(cursor);
+    if now.is_nan() {
+        return;
+    }
     let columns = f64::from(layout::plot_columns(model).max(1));
     let column = view.width() / columns;
     let target = if forward {
-        series.before(now + column).max(cursor + 1)
+        axis.first_at(now + column).max(cursor + 1)
     } else {
-        series.before(now - column).min(cursor.saturating_sub(1))
+        axis.first_at(now - column).min(cursor.saturating_sub(1))
     };
-    let dense = view.positions(Axis::Time(&series.t)).len() as f64 > columns;
+    let dense = view.positions(axis).len() as f64 > columns;
     let next = match (dense, forward) {
         (true, _) => target,
         (false, true) => cursor + 1,

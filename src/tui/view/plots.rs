@@ -1,105 +1,38 @@
 //! The plots: overview, trace, residual.
 
-use std::cell::OnceCell;
-
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Span as Words;
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
-use super::super::model::{Layers, Model, YMode};
+use super::super::model::{Model, YMode};
+use super::super::picture::Picture;
 use super::super::plot::{
-    self, Axis, AxisLabels, Columns, Cursor, Curve, FlagRail, Flags, Grid, Overview, Pyramid, ResidualPlot, Span,
-    TickSteps, Trace, TracePlot, View, YFit, tick_step,
+    AxisLabels, Columns, Cursor, FlagRail, Layers, Overview, Pyramid, ResidualPlot, TickSteps, TracePlot, View,
+    tick_step,
 };
+use super::super::update::layer_names;
 use super::{heading, short, thousands};
-use crate::method::shared::MAX_GAP;
 use crate::plot::Drawn;
-use crate::track::{Series, TimeFormat};
+use crate::track::TimeFormat;
 
-/// What the plots of one frame share.
+/// The plots of the channel on the screen.
 pub(super) struct Plots<'a> {
     model: &'a Model,
-    series: Series<'a>,
-    drawn: Option<&'a Drawn>,
-    no_flags: Flags,
-    /// The samples while there is no result yet.
-    plain: Pyramid,
-    /// The samples in view, reduced for the trace; the panels below it show the same columns.
-    in_view: OnceCell<Columns>,
+    picture: Picture<'a>,
 }
 
 impl<'a> Plots<'a> {
     pub(super) fn new(model: &'a Model) -> Self {
-        let series = model.series();
-        let drawn = model.state().drawn.as_deref();
-        let plain = if drawn.is_none() { Pyramid::build(&series.y, |_| false) } else { Pyramid::default() };
-        Self { model, series, drawn, no_flags: Flags::default(), plain, in_view: OnceCell::new() }
-    }
-
-    fn axis(&self) -> Axis<'_> {
-        Axis::Time(&self.series.t)
-    }
-
-    /// Calls `draw` with the trace that the model's layers want.
-    fn with_trace<R>(&self, layers: Layers, draw: impl FnOnce(&Trace<'_>) -> R) -> R {
-        let y = &self.series.y;
-        let gap = self.gap();
-        let Some(d) = self.drawn else {
-            let span = |i: usize| y.get(i).copied().map_or(Span::EMPTY, Span::at);
-            let kept = Curve { pyramid: &self.plain, span: &span };
-            let (axis, flags) = (self.axis(), &self.no_flags);
-            return draw(&Trace { axis, kept, flags, expected: None, band: None, repaired: None, gap });
-        };
-        let kept = |i: usize| d.kept_span(&self.series, i);
-        let after = |i: usize| d.after_span(&self.series, i);
-        let expected = |i: usize| d.expected_span(i);
-        let band = |i: usize| d.band_span(i);
-        let repaired = |i: usize| d.repaired_span(i);
-        let axis = self.axis();
-        if layers == Layers::After {
-            let kept = Curve { pyramid: &d.after, span: &after };
-            let repaired = Some(Curve { pyramid: &d.repaired, span: &repaired });
-            return draw(&Trace { axis, kept, flags: &self.no_flags, expected: None, band: None, repaired, gap });
-        }
-        let with = |on: bool, pyramid, span| on.then_some(Curve { pyramid, span });
-        draw(&Trace {
-            axis,
-            kept: Curve { pyramid: &d.kept, span: &kept },
-            flags: &self.model.state().flags,
-            expected: with(layers != Layers::Raw, &d.expected, &expected),
-            band: with(layers == Layers::Band, &d.band, &band),
-            repaired: with(layers != Layers::Raw, &d.repaired, &repaired),
-            gap,
-        })
-    }
-
-    /// Neighbours further apart than this are not joined: the record is cut there.
-    fn gap(&self) -> f64 {
-        let settings = &self.model.plan().setup.settings;
-        #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-        let lost = settings.whole_or_off(MAX_GAP.key).map(|n| n as f64 + 1.5 - 1e-6);
-        lost.map_or(f64::INFINITY, |steps| steps * self.series.interval)
-    }
-
-    fn y_fit(&self) -> YFit {
-        match self.model.state().y_fit {
-            YMode::Kept => YFit::Kept,
-            YMode::All => YFit::All,
-            YMode::Robust => YFit::Robust,
-        }
+        Self { model, picture: Picture::of(model, model.shown) }
     }
 
     pub(super) fn overview(&self, area: Rect, buffer: &mut Buffer) {
         let (theme, glyphs) = (&self.model.theme, self.model.glyphs);
-        let view = View::whole(self.axis());
-        let plot = TracePlot::plot_area(area);
-        let columns = self.with_trace(Layers::Raw, |trace| {
-            let y = YFit::Kept.range(trace, view);
-            Columns::new(trace, Grid { view, y, width: plot.width, height: area.height.saturating_sub(1) })
-        });
-        Overview { columns: &columns, viewport: self.model.state().view, theme, glyphs }.render(area, buffer);
+        let width = TracePlot::plot_area(area).width;
+        let columns = &*self.picture.overview((width, area.height.saturating_sub(1)));
+        Overview { columns, viewport: self.model.state().view, theme, glyphs }.render(area, buffer);
     }
 
     pub(super) fn trace(&self, area: Rect, buffer: &mut Buffer) {
@@ -110,39 +43,35 @@ impl<'a> Plots<'a> {
         let axis_row = (body.height >= 5).then(|| take_bottom(&mut body));
         let rail_row = take_bottom(&mut body);
         let plot = TracePlot::plot_area(body);
-        let view = state.view;
-        let columns = self.in_view.get_or_init(|| {
-            self.with_trace(state.layers, |trace| {
-                let y = self.y_fit().range(trace, view);
-                Columns::new(trace, Grid { view, y, width: plot.width, height: body.height })
-            })
-        });
+        let columns = &*self.picture.trace((plot.width, body.height));
         // The rail never goes away, not even while the record is shown as it will be after repair, without its flags.
-        let with_flags = (state.layers == Layers::After).then(|| {
-            self.with_trace(Layers::Raw, |trace| {
-                Columns::new(trace, Grid { view, y: columns.grid().y, width: plot.width, height: 1 })
-            })
-        });
-        let cursor = self.series.y.get(state.cursor).map(|&y| Cursor { position: state.cursor, y });
+        let with_flags = state.after.then(|| self.picture.rail(plot.width));
+        let cursor = self.picture.series.y.get(state.cursor).map(|&y| Cursor { position: state.cursor, y });
         let selection = model.selection();
-        let widget = TracePlot { columns, theme, glyphs, layers: plot::Layers::ALL, cursor, selection };
+        let widget = TracePlot { columns, theme, glyphs, layers: self.layers(), cursor, selection };
         let note = widget.y_note();
         let words = self.trace_words(columns, &note);
         let words: Vec<Words<'_>> = words.iter().map(|w| Words::styled(w.as_str(), theme.dim)).collect();
         heading(model, Panel::Trace, &words, head, buffer);
         widget.render(body, buffer);
         let cursor = Some(state.cursor);
-        FlagRail { columns: with_flags.as_ref().unwrap_or(columns), theme, glyphs, label: "flags", cursor }
-            .render(rail_row, buffer);
+        let columns = with_flags.as_deref().unwrap_or(columns);
+        FlagRail { columns, theme, glyphs, label: "flags", cursor }.render(rail_row, buffer);
         if let Some(row) = axis_row {
-            self.axis_labels(row, view, buffer);
+            self.axis_labels(row, state.view, buffer);
         }
+    }
+
+    /// After repair, the curve is what the picture is about.
+    fn layers(&self) -> Layers {
+        let state = self.model.state();
+        if state.after { Layers::ALL } else { state.layers }
     }
 
     fn trace_words(&self, columns: &Columns, note: &str) -> Vec<String> {
         let state = self.model.state();
         let inside = columns.in_view().len();
-        let n = self.series.len();
+        let n = self.picture.series.len();
         let mut words = Vec::new();
         if inside < n {
             words.push(format!("{} of {} samples  ", thousands(inside), thousands(n)));
@@ -156,18 +85,27 @@ impl<'a> Plots<'a> {
             YMode::Kept => "",
             YMode::All => "y: all  ",
             YMode::Robust => "y: robust  ",
+            YMode::Fixed(..) => "y: fixed  ",
         };
         let layers = match state.layers {
-            Layers::Band => "",
-            Layers::Expected => "with expected  ",
-            Layers::Raw => "curve alone  ",
-            Layers::After => "AFTER REPAIR  ",
+            _ if state.after => "AFTER REPAIR  ".to_owned(),
+            Layers::ALL => String::new(),
+            Layers::RAW => "curve alone  ".to_owned(),
+            Layers { raw: true, expected: true, repaired: true, .. } => "with expected  ".to_owned(),
+            other => match layer_names(other).join(", ") {
+                names if names.is_empty() => "flags alone  ".to_owned(),
+                names => format!("{names}  "),
+            },
         };
-        words.extend([fit, layers].iter().filter(|w| !w.is_empty()).map(|w| (*w).to_owned()));
+        words.extend([fit.to_owned(), layers].into_iter().filter(|w| !w.is_empty()));
         words
     }
 
     fn axis_labels(&self, row: Rect, view: View, buffer: &mut Buffer) {
+        if self.model.by_number {
+            self.row_labels(row, view, buffer);
+            return;
+        }
         let time = &self.model.track.time;
         let calendar = time.date(0.0).is_some();
         let clock = calendar || time.format == TimeFormat::Clock;
@@ -198,26 +136,31 @@ impl<'a> Plots<'a> {
         AxisLabels { view, steps, phase, label_width, label: &label, unit, theme }.render(row, buffer);
     }
 
+    /// Rows of the file under positions: both count from the first sample, unless rows have no value.
+    fn row_labels(&self, row: Rect, view: View, buffer: &mut Buffer) {
+        let series = &self.picture.series;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates as wanted")]
+        let label = |x: f64| series.row_of(x.round() as usize).map_or(String::new(), |row| format!("#{}", row + 1));
+        let (steps, theme) = (TickSteps::Decimal, &self.model.theme);
+        let label_width = u16::try_from(self.model.track.rows.to_string().len() + 1).unwrap_or(12);
+        AxisLabels { view, steps, phase: 1.0, label_width, label: &label, unit: "row", theme }.render(row, buffer);
+    }
+
     pub(super) fn residual(&self, area: Rect, buffer: &mut Buffer) {
         let model = self.model;
         let (theme, glyphs, state) = (&model.theme, model.glyphs, model.state());
         let head = Rect { height: area.height.min(1), ..area };
         let body = Rect { y: area.y + head.height, height: area.height - head.height, ..area };
-        let view = state.view;
-        let plot = TracePlot::plot_area(body);
-        let columns = self.in_view.get_or_init(|| {
-            self.with_trace(Layers::Raw, |trace| {
-                Columns::new(trace, Grid { view, y: (0.0, 1.0), width: plot.width, height: body.height })
-            })
-        });
+        let columns = &*self.picture.rail(TracePlot::plot_area(body).width);
         let nothing = Pyramid::default();
-        let pyramid = self.drawn.map_or(&nothing, |d| &d.ratios);
-        let ratio = |i: usize| self.drawn.and_then(|d| d.residual(&self.series, i));
+        let drawn = state.drawn.as_deref();
+        let pyramid = drawn.map_or(&nothing, |d| &d.ratios);
+        let ratio = |i: usize| drawn.and_then(|d| d.residual(&self.picture.series, i));
         let cursor = Some(state.cursor);
-        let threshold = self.drawn.map_or(1.0, |d| d.threshold);
+        let threshold = drawn.map_or(1.0, |d| d.threshold);
         let top = ResidualPlot::top_for(threshold);
         let widget = ResidualPlot { columns, ratio: &ratio, pyramid, threshold, top, theme, glyphs, cursor };
-        let unit = if self.drawn.is_some_and(Drawn::in_scales) { "scales" } else { "tolerances" };
+        let unit = if drawn.is_some_and(Drawn::in_scales) { "scales" } else { "tolerances" };
         let what = if widget.is_signed() { "in" } else { "worst per column in" };
         let at = format!("{what} {unit}, flagged from {}  ", short(threshold));
         let words = [Words::styled(at, theme.dim)];

@@ -1,0 +1,140 @@
+//! The picture of a channel: its samples and its result on the way to the columns of a plot. `view` draws it, and
+//! `update` asks it what is on the screen.
+
+use std::sync::Arc;
+
+use super::model::{ChannelState, Model, YMode};
+use super::plot::{Axis, Columns, Curve, Flags, Grid, Layers, Memo, Pyramid, Span, Trace, View, YFit};
+use crate::method::shared::MAX_GAP;
+use crate::plot::Drawn;
+use crate::track::Series;
+
+/// What was reduced for the last frame, for the next one, which mostly shows the same.
+#[derive(Debug, Default)]
+pub struct Pictures {
+    overview: Memo<Key, Columns>,
+    trace: Memo<Key, Columns>,
+    rail: Memo<Key, Columns>,
+    /// The samples while there is no result yet.
+    plain: Memo<(), Pyramid>,
+}
+
+/// All that columns are made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Key {
+    result: u64,
+    layers: Layers,
+    after: bool,
+    by_number: bool,
+    view: View,
+    fit: YFit,
+    size: (u16, u16),
+    gap: f64,
+}
+
+/// A channel of the model as it is drawn.
+pub(super) struct Picture<'a> {
+    state: &'a ChannelState,
+    drawn: Option<&'a Drawn>,
+    by_number: bool,
+    gap: f64,
+    no_flags: Flags,
+    /// Its present samples.
+    pub(super) series: Series<'a>,
+}
+
+impl<'a> Picture<'a> {
+    /// The picture of the channel of a plan.
+    pub(super) fn of(model: &'a Model, plan: usize) -> Self {
+        let state = &model.channels[plan];
+        let series = state.samples.series(&model.track.channels[state.channel], &model.track.time);
+        // Neighbours further apart than this are not joined: the record is cut there.
+        let limit = model.session.plans[plan].setup.settings.whole_or_off(MAX_GAP.key);
+        #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+        let gap = limit.map_or(f64::INFINITY, |n| (n as f64 + 1.5 - 1e-6) * series.interval);
+        let (drawn, by_number) = (state.drawn.as_deref(), model.by_number);
+        Self { state, drawn, by_number, gap, no_flags: Flags::default(), series }
+    }
+
+    /// Where the samples lie along x.
+    pub(super) fn axis(&self) -> Axis<'_> {
+        if self.by_number { Axis::Position(&self.series.t) } else { Axis::Time(&self.series.t) }
+    }
+
+    /// The trace in view with the layers that are on.
+    pub(super) fn trace(&self, size: (u16, u16)) -> Arc<Columns> {
+        let key = self.key(self.state.layers, self.state.view, self.fit(), size);
+        self.columns(&self.state.pictures.trace, Key { after: self.state.after, ..key })
+    }
+
+    /// The flags over the same x range, when the trace shows the record after repair, without them.
+    pub(super) fn rail(&self, width: u16) -> Arc<Columns> {
+        self.columns(&self.state.pictures.rail, self.key(Layers::NONE, self.state.view, YFit::Kept, (width, 1)))
+    }
+
+    /// The whole record: the curve and its flags.
+    pub(super) fn overview(&self, size: (u16, u16)) -> Arc<Columns> {
+        let whole = View::whole(self.axis());
+        self.columns(&self.state.pictures.overview, self.key(Layers::NONE, whole, YFit::Kept, size))
+    }
+
+    /// The y range of the trace.
+    pub(super) fn y_range(&self) -> (f64, f64) {
+        self.with_trace(self.state.layers, self.state.after, |trace| self.fit().range(trace, self.state.view))
+    }
+
+    fn fit(&self) -> YFit {
+        match self.state.y_fit {
+            YMode::Kept => YFit::Kept,
+            YMode::All => YFit::All,
+            YMode::Robust => YFit::Robust,
+            YMode::Fixed(low, high) => YFit::Fixed(low, high),
+        }
+    }
+
+    fn key(&self, layers: Layers, view: View, fit: YFit, size: (u16, u16)) -> Key {
+        let (result, by_number, gap) = (self.state.results, self.by_number, self.gap);
+        Key { result, layers, after: false, by_number, view, fit, size, gap }
+    }
+
+    fn columns(&self, memo: &Memo<Key, Columns>, key: Key) -> Arc<Columns> {
+        memo.get(key, || {
+            self.with_trace(key.layers, key.after, |trace| {
+                let (y, (width, height)) = (key.fit.range(trace, key.view), key.size);
+                Columns::new(trace, Grid { view: key.view, y, width, height })
+            })
+        })
+    }
+
+    /// Calls `draw` with the trace that these layers make.
+    fn with_trace<R>(&self, layers: Layers, after: bool, draw: impl FnOnce(&Trace<'_>) -> R) -> R {
+        let y = &self.series.y;
+        let (axis, gap) = (self.axis(), self.gap);
+        let Some(d) = self.drawn else {
+            let plain = self.state.pictures.plain.get((), || Pyramid::build(y, |_| false));
+            let span = |i: usize| y.get(i).copied().map_or(Span::EMPTY, Span::at);
+            let (kept, flags) = (Curve { pyramid: &plain, span: &span }, &self.no_flags);
+            return draw(&Trace { axis, kept, flags, expected: None, band: None, repaired: None, gap });
+        };
+        let kept = |i: usize| d.kept_span(&self.series, i);
+        let whole = |i: usize| d.after_span(&self.series, i);
+        let expected = |i: usize| d.expected_span(i);
+        let band = |i: usize| d.band_span(i);
+        let repaired = |i: usize| d.repaired_span(i);
+        if after {
+            let kept = Curve { pyramid: &d.after, span: &whole };
+            let repaired = Some(Curve { pyramid: &d.repaired, span: &repaired });
+            return draw(&Trace { axis, kept, flags: &self.no_flags, expected: None, band: None, repaired, gap });
+        }
+        let with = |on: bool, pyramid, span| on.then_some(Curve { pyramid, span });
+        draw(&Trace {
+            axis,
+            kept: Curve { pyramid: &d.kept, span: &kept },
+            flags: &self.state.flags,
+            expected: with(layers.expected, &d.expected, &expected),
+            band: with(layers.band, &d.band, &band),
+            repaired: with(layers.repaired, &d.repaired, &repaired),
+            gap,
+        })
+    }
+}

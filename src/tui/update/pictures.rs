@@ -1,0 +1,144 @@
+//! What the plots show of the record: axes, layers, and which picture lies below the trace.
+
+use super::super::action::Action;
+use super::super::message::Effect;
+use super::super::model::{Model, Tone, YMode};
+use super::super::picture::Picture;
+use super::super::plot::Layers;
+use crate::track::printable;
+
+/// Does an action that is about the pictures; none when it is about something else.
+pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
+    match action {
+        Action::YFit => next_y_fit(model),
+        Action::Layers => next_layers(model),
+        Action::BeforeAfter => {
+            let after = !model.state().after;
+            model.state_mut().after = after;
+            model.say(Tone::Done, if after { "after repair: as it will be written" } else { "before repair" });
+        }
+        Action::XAxis => other_x(model),
+        _ => return None,
+    }
+    Some(Vec::new())
+}
+
+fn next_y_fit(model: &mut Model) {
+    let next = match model.state().y_fit {
+        YMode::Kept => YMode::All,
+        YMode::All => YMode::Robust,
+        YMode::Robust => as_it_is(model),
+        YMode::Fixed(..) => YMode::Kept,
+    };
+    set_y_fit(model, next);
+}
+
+/// The range that is on the screen, for good.
+fn as_it_is(model: &Model) -> YMode {
+    let (low, high) = Picture::of(model, model.shown).y_range();
+    YMode::Fixed(low, high)
+}
+
+fn set_y_fit(model: &mut Model, mode: YMode) {
+    model.state_mut().y_fit = mode;
+    let words = match mode {
+        YMode::Kept => "from the kept samples",
+        YMode::All => "from all samples",
+        YMode::Robust => "from the middle 99.8 % of the samples",
+        YMode::Fixed(..) => "stays as it is (:y LOW HIGH sets another)",
+    };
+    model.say(Tone::Done, format!("vertical range {words}"));
+}
+
+/// `:y kept`, `:y fixed`, `:y -10 250`.
+pub(super) fn y_command(model: &mut Model, text: &str) -> Result<Vec<Effect>, String> {
+    let numbers: Vec<f64> = text.split_whitespace().filter_map(|w| w.parse().ok()).collect();
+    let mode = match (text, numbers.as_slice()) {
+        ("kept", _) => YMode::Kept,
+        ("all", _) => YMode::All,
+        ("robust", _) => YMode::Robust,
+        ("fixed", _) => as_it_is(model),
+        (_, [low, high]) if low.is_finite() && high.is_finite() && low < high => YMode::Fixed(*low, *high),
+        _ => return Err(format!("{}: say kept, all, robust, fixed, or LOW HIGH", printable(text))),
+    };
+    set_y_fit(model, mode);
+    Ok(Vec::new())
+}
+
+/// Where a layer is on or off.
+type Switch = fn(&mut Layers) -> &mut bool;
+
+/// The layers by name.
+const LAYERS: [(&str, Switch); 4] = [
+    ("raw", |l| &mut l.raw),
+    ("expected", |l| &mut l.expected),
+    ("band", |l| &mut l.band),
+    ("repaired", |l| &mut l.repaired),
+];
+
+fn next_layers(model: &mut Model) {
+    let next = match model.state().layers {
+        Layers::ALL => Layers { band: false, ..Layers::ALL },
+        Layers { raw: true, expected: true, band: false, .. } => Layers::RAW,
+        _ => Layers::ALL,
+    };
+    let state = model.state_mut();
+    (state.layers, state.after) = (next, false);
+    let words = match next {
+        Layers::ALL => "curve, tolerance band and repair",
+        Layers::RAW => "curve alone",
+        _ => "curve, expected value and repair",
+    };
+    model.say(Tone::Done, words);
+}
+
+/// The names of the layers that are on.
+pub(in crate::tui) fn layer_names(mut layers: Layers) -> Vec<&'static str> {
+    LAYERS.iter().filter(|(_, of)| *of(&mut layers)).map(|(name, _)| *name).collect()
+}
+
+/// `:layers raw band` shows these, `:layers -raw +band` changes what is shown, `:layers all` and `:layers none`.
+pub(super) fn layers_command(model: &mut Model, text: &str) -> Result<Vec<Effect>, String> {
+    let mut layers = model.state().layers;
+    for (i, word) in text.split_whitespace().enumerate() {
+        let (name, on) = match (word.strip_prefix('-'), word.strip_prefix('+')) {
+            (Some(name), _) => (name, false),
+            (_, Some(name)) => (name, true),
+            _ => {
+                layers = if i == 0 { Layers::NONE } else { layers };
+                (word, true)
+            }
+        };
+        match (name, LAYERS.iter().find(|(n, _)| *n == name)) {
+            ("all", _) => layers = Layers::ALL,
+            ("none", _) => layers = Layers::NONE,
+            (_, Some((_, of))) => *of(&mut layers) = on,
+            _ => {
+                let names = LAYERS.map(|(name, _)| name).join(", ");
+                return Err(format!("{}: layers are {names}; -NAME takes one away, all, none", printable(name)));
+            }
+        }
+    }
+    let state = model.state_mut();
+    (state.layers, state.after) = (layers, false);
+    let names = layer_names(layers);
+    let names = if names.is_empty() { "none but the flags".to_owned() } else { names.join(", ") };
+    model.say(Tone::Done, format!("layers: {names}"));
+    Ok(Vec::new())
+}
+
+/// From time to sample number, or back: every channel keeps the samples that it has in view.
+fn other_x(model: &mut Model) {
+    for plan in 0..model.channels.len() {
+        let picture = Picture::of(model, plan);
+        let axis = picture.axis();
+        let state = &model.channels[plan];
+        let view = state.view.on_other(axis);
+        let views = state.views.iter().map(|view| view.on_other(axis)).collect();
+        let state = &mut model.channels[plan];
+        (state.view, state.views) = (view, views);
+    }
+    model.by_number = !model.by_number;
+    let words = if model.by_number { "x is the number of the sample: gaps take no room" } else { "x is the time" };
+    model.say(Tone::Done, words);
+}
