@@ -106,6 +106,7 @@ fn of_size(criterion: &mut Criterion, name: &str, n: usize, share_flagged: f64) 
                         pyramid,
                         threshold: 1.0,
                         top: 3.0,
+                        log: false,
                         theme: &theme,
                         glyphs,
                         cursor,

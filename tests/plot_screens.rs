@@ -110,8 +110,18 @@ fn residual(record: &Record, view: View, glyphs: Glyphs) -> Buffer {
     let ratio = |i: usize| (!unjudged.contains(&i)).then(|| (record.y[i] - record.expected[i]) / 4.0);
     let pyramid = ResidualPlot::pyramid(n, ratio);
     let mut buffer = Buffer::empty(area);
-    ResidualPlot { columns, ratio: &ratio, pyramid: &pyramid, threshold: 1.0, top: 3.0, theme, glyphs, cursor: None }
-        .render(area, &mut buffer);
+    ResidualPlot {
+        columns,
+        ratio: &ratio,
+        pyramid: &pyramid,
+        threshold: 1.0,
+        top: 3.0,
+        log: false,
+        theme,
+        glyphs,
+        cursor: None,
+    }
+    .render(area, &mut buffer);
     buffer
 }
 

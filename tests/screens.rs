@@ -170,6 +170,49 @@ fn record_after_repair_in_the_second_channel() {
 }
 
 #[test]
+fn histogram_below_the_trace() {
+    both("histogram", "R");
+}
+
+#[test]
+fn steps_of_time_below_the_trace() {
+    both("steps", "R R");
+}
+
+#[test]
+fn residual_with_its_logarithm_over_sample_numbers() {
+    both("by_number", "L X n z -");
+}
+
+#[test]
+fn a_range_that_stays_and_chosen_layers() {
+    both("fixed_range", ":y Space -50 Space 150 Enter :layers Space raw Space band Enter");
+}
+
+#[test]
+fn pictures_in_ascii() {
+    for (name, keys) in [("histogram", "R"), ("steps", "R R")] {
+        let bench = Bench::on("demo.csv", ASCII_MONO).keys(keys);
+        assert_snapshot!(format!("ascii_{name}"), bench.frame());
+        assert!(bench.frame().is_ascii());
+    }
+}
+
+#[test]
+fn x_keeps_the_samples_in_view_when_it_becomes_the_number_and_back() {
+    let time = Bench::on("demo.csv", UNICODE_DARK).keys("n n z");
+    let (view, samples) = (time.0.state().view, time.0.in_view());
+    let number = time.keys("X");
+    assert_eq!(number.0.in_view(), samples);
+    // All rows of the record have a value: the number of a sample is its row.
+    assert!((number.0.state().view.from - samples.start as f64).abs() < 1.0);
+    let back = number.keys("X");
+    assert_eq!(back.0.in_view(), samples);
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-9 * b.abs();
+    assert!(near(back.0.state().view.from, view.from) && near(back.0.state().view.to, view.to));
+}
+
+#[test]
 fn too_small() {
     let bench = Bench::on("demo.csv", UNICODE_DARK).size((39, 9));
     assert_snapshot!(bench.frame());

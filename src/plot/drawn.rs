@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Flag, FlagState, Pyramid, Span};
+use super::{Flag, FlagState, Histogram, Pyramid, Span};
 use crate::method::Verdict;
 use crate::param::Value;
 use crate::review::Ruling;
@@ -23,6 +23,8 @@ pub struct Drawn {
     pub threshold: f64,
     /// Extremes of the residual in the units of the panel.
     pub ratios: Pyramid,
+    /// How often which residual occurs, in the units of the panel.
+    pub histogram: Histogram,
     /// Extremes of the expected value.
     pub expected: Pyramid,
     /// Extremes of the tolerance band.
@@ -51,6 +53,7 @@ impl Drawn {
             hidden,
             kept: empty(),
             ratios: empty(),
+            histogram: Histogram::default(),
             expected: empty(),
             band: empty(),
             repaired: empty(),
@@ -58,11 +61,12 @@ impl Drawn {
             positions,
         };
         let of = &drawn;
-        let ((kept, ratios), ((expected, band), (repaired, after))) = rayon::join(
+        let ((kept, ratios, histogram), ((expected, band), (repaired, after))) = rayon::join(
             || {
                 let kept = Pyramid::build(&series.y, |i| of.hidden[i]);
                 let ratios = Pyramid::build_spans(n, |i| of.residual(series, i).map_or(Span::EMPTY, Span::at));
-                (kept, ratios)
+                let histogram = Histogram::new(residual_top(threshold), |i| of.residual(series, i), &of.hidden);
+                (kept, ratios, histogram)
             },
             || {
                 let expected = Pyramid::build_spans(n, |i| of.expected_span(i));
@@ -72,8 +76,9 @@ impl Drawn {
                 ((expected, band), (repaired, after))
             },
         );
-        (drawn.kept, drawn.ratios, drawn.expected) = (kept, ratios, expected);
-        (drawn.band, drawn.repaired, drawn.after) = (band, repaired, after);
+        (drawn.kept, drawn.ratios, drawn.histogram) = (kept, ratios, histogram);
+        (drawn.expected, drawn.band) = (expected, band);
+        (drawn.repaired, drawn.after) = (repaired, after);
         drawn
     }
 
@@ -160,6 +165,15 @@ fn ratio(outcome: &Outcome, series: &Series<'_>, i: usize) -> Option<f64> {
     let (p, h) = (*judged.expected.get(i)?, *judged.tolerance.get(i)?);
     let ratio = (series.y.get(i)? - p) / h;
     (h > 0.0 && ratio.is_finite()).then_some(ratio)
+}
+
+/// A good residual for the edge of a plot: the threshold lies between a quarter and half of the way out, and the edge
+/// stays put while the threshold moves within a factor of two.
+#[must_use]
+pub fn residual_top(threshold: f64) -> f64 {
+    let octave = (threshold / 2.5).log2().floor();
+    let top = 10.0 * octave.exp2();
+    if top.is_finite() && top > 0.0 { top } else { 10.0 }
 }
 
 /// How a mark is shown.

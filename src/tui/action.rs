@@ -37,6 +37,8 @@ pub enum Action {
     Layers,
     BeforeAfter,
     XAxis,
+    NextLower,
+    LogScale,
     NextChannel,
     Channels,
     Methods,

@@ -16,10 +16,12 @@ use crate::session::{Edit, Plan, Session};
 use crate::track::{Channel, Series, Track};
 
 mod channel;
+mod lower;
 mod overlay;
 mod review;
 
 pub use channel::{ChannelState, YMode};
+pub use lower::{Lower, LowerKind};
 pub use overlay::{Overlay, Picker, PickerKind, Prompt, PromptKind};
 pub use review::{Group, Reviewing, Sort, Unit};
 
@@ -62,6 +64,8 @@ pub struct Model {
     pub awaited: Option<u64>,
     /// How the flags are reviewed.
     pub review: Reviewing,
+    /// The picture below the trace.
+    pub lower: Lower,
     /// True when x is the number of the sample, false when it is its time.
     pub by_number: bool,
     /// Whether the next quit is meant.
@@ -127,6 +131,7 @@ impl Model {
             glyphs,
             awaited: None,
             review: Reviewing::default(),
+            lower: Lower::default(),
             by_number: false,
             interrupted: false,
             unjournalled: Vec::new(),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::model::{ChannelState, Model, YMode};
 use super::plot::{Axis, Columns, Curve, Flags, Grid, Layers, Memo, Pyramid, Span, Trace, View, YFit};
 use crate::method::shared::MAX_GAP;
-use crate::plot::Drawn;
+use crate::plot::{Drawn, StepColumn, Steps};
 use crate::track::Series;
 
 /// What was reduced for the last frame, for the next one, which mostly shows the same.
@@ -17,6 +17,7 @@ pub struct Pictures {
     rail: Memo<Key, Columns>,
     /// The samples while there is no result yet.
     plain: Memo<(), Pyramid>,
+    steps: Memo<(), Steps>,
 }
 
 /// All that columns are made of.
@@ -38,6 +39,8 @@ pub(super) struct Picture<'a> {
     drawn: Option<&'a Drawn>,
     by_number: bool,
     gap: f64,
+    max_gap: Option<usize>,
+    seconds: &'a [f64],
     no_flags: Flags,
     /// Its present samples.
     pub(super) series: Series<'a>,
@@ -52,8 +55,8 @@ impl<'a> Picture<'a> {
         let limit = model.session.plans[plan].setup.settings.whole_or_off(MAX_GAP.key);
         #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
         let gap = limit.map_or(f64::INFINITY, |n| (n as f64 + 1.5 - 1e-6) * series.interval);
-        let (drawn, by_number) = (state.drawn.as_deref(), model.by_number);
-        Self { state, drawn, by_number, gap, no_flags: Flags::default(), series }
+        let (drawn, by_number, seconds) = (state.drawn.as_deref(), model.by_number, &model.track.time.seconds);
+        Self { state, drawn, by_number, gap, max_gap: limit, seconds, no_flags: Flags::default(), series }
     }
 
     /// Where the samples lie along x.
@@ -76,6 +79,16 @@ impl<'a> Picture<'a> {
     pub(super) fn overview(&self, size: (u16, u16)) -> Arc<Columns> {
         let whole = View::whole(self.axis());
         self.columns(&self.state.pictures.overview, self.key(Layers::NONE, whole, YFit::Kept, size))
+    }
+
+    /// The steps of time of the whole channel.
+    pub(super) fn steps(&self) -> Arc<Steps> {
+        self.state.pictures.steps.get((), || Steps::of(&self.series, self.seconds))
+    }
+
+    /// The steps of time in each of some columns.
+    pub(super) fn step_columns(&self, columns: &Columns) -> Vec<StepColumn> {
+        self.steps().columns(columns, &self.series, self.max_gap)
     }
 
     /// The y range of the trace.

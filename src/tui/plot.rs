@@ -39,12 +39,15 @@
 //! assert!(buffer.content().iter().any(|cell| cell.symbol() == "●"));
 //! ```
 
+mod bars;
 mod glyphs;
+mod histogram;
 mod memo;
 mod overview;
 mod paint;
 mod rail;
 mod residual;
+mod steps;
 mod ticks;
 mod trace;
 
@@ -54,10 +57,12 @@ pub use crate::plot::{
 };
 use crate::plot::{columns, dots, flags, labels, pyramid, scale, view};
 pub use glyphs::Glyphs;
+pub use histogram::HistogramPlot;
 pub use memo::Memo;
 pub use overview::Overview;
 pub use rail::FlagRail;
 pub use residual::ResidualPlot;
+pub use steps::StepPlot;
 pub use ticks::{AxisLabels, TickSteps, tick_step};
 pub use trace::{Cursor, Layers, TracePlot};
 

@@ -14,6 +14,7 @@ use super::model::{Model, Overlay, Tone};
 mod card;
 mod footer;
 mod journal;
+mod lower;
 mod overlay;
 mod parameters;
 mod plain;
@@ -49,7 +50,7 @@ fn draw_panels(model: &Model, area: Rect, buffer: &mut Buffer) {
         plots.trace(area, buffer);
     }
     if let Some(area) = areas.residual {
-        plots.residual(area, buffer);
+        plots.lower(area, buffer);
     }
     if let Some(area) = areas.card {
         card::draw(model, area, buffer);
@@ -130,12 +131,17 @@ fn said(text: &str, style: Style) -> Line<'static> {
 
 /// A heading: a rule with the name of a panel, its digit, and a few words.
 fn heading(model: &Model, panel: Panel, words: &[Span<'_>], area: Rect, buffer: &mut Buffer) -> Rect {
+    heading_named(model, panel, panel.name(), words, area, buffer)
+}
+
+/// The heading of a panel that goes by several names.
+fn heading_named(model: &Model, panel: Panel, name: &str, words: &[Span<'_>], area: Rect, buffer: &mut Buffer) -> Rect {
     let theme = &model.theme;
     let focused = model.focus == panel;
     let style = if focused { theme.focus } else { theme.title };
     let mut spans = vec![
         Span::styled(format!("{} ", rule_glyph(model)), theme.dim),
-        Span::styled(format!("{} {}", panel.digit(), panel.name()), style),
+        Span::styled(format!("{} {name}", panel.digit()), style),
         Span::raw(" "),
     ];
     // Words that do not fit are left out whole: a number cut short reads as another number.

@@ -129,6 +129,7 @@ pub fn all_widgets(
         pyramid: &pyramid,
         threshold: 1.0,
         top: 3.0,
+        log: false,
         theme,
         glyphs,
         cursor: Some(at),

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::super::advice::Advice;
-use super::Group;
 use super::super::picture::Pictures;
 use super::super::plot::{Axis, Flags, Layers, View};
+use super::Group;
 use crate::param::Settings;
 use crate::plot::Drawn;
 use crate::session::Plan;

@@ -75,6 +75,12 @@ impl Glyphs {
         }
     }
 
+    /// Lost samples, in the picture of step sizes.
+    #[must_use]
+    pub fn lost(self) -> char {
+        if self == Self::Unicode { '◆' } else { '%' }
+    }
+
     /// A vertical line: the axis, the cursor.
     #[must_use]
     pub fn vertical(self) -> char {

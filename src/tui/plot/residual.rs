@@ -8,6 +8,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::widgets::Widget;
 
+use super::bars::{Bar, Bars};
 use super::columns::Columns;
 use super::dots::{DOTS_PER_COLUMN, Dots};
 use super::flags::FlagState;
@@ -15,6 +16,7 @@ use super::glyphs::Glyphs;
 use super::paint::{Paint, right_of_margin};
 use super::pyramid::{Pyramid, Span};
 use super::scale::YScale;
+use crate::plot::residual_top;
 use crate::tui::theme::Theme;
 
 /// Samples per column of cells up to which each is drawn with its sign.
@@ -35,6 +37,8 @@ pub struct ResidualPlot<'a> {
     pub threshold: f64,
     /// The ratio at the upper edge; larger ones are cut and marked.
     pub top: f64,
+    /// True when heights go with the logarithm of the ratio, so that large ones fit beside the threshold.
+    pub log: bool,
     /// Styles.
     pub theme: &'a Theme,
     /// Characters.
@@ -44,13 +48,10 @@ pub struct ResidualPlot<'a> {
 }
 
 impl ResidualPlot<'_> {
-    /// A good ratio for the upper edge: the threshold lies between a quarter and half of the way up, and the edge
-    /// stays put while the threshold moves within a factor of two.
+    /// A good ratio for the upper edge ([`residual_top`]).
     #[must_use]
     pub fn top_for(threshold: f64) -> f64 {
-        let octave = (threshold / 2.5).log2().floor();
-        let top = 10.0 * octave.exp2();
-        if top.is_finite() && top > 0.0 { top } else { 10.0 }
+        residual_top(threshold)
     }
 
     /// The extremes of `len` ratios.
@@ -74,6 +75,13 @@ impl ResidualPlot<'_> {
         if self.top > 0.0 && self.top.is_finite() { self.top } else { Self::top_for(self.threshold) }
     }
 
+    /// What the height goes with: the ratio, or a logarithm of it that is even, zero at zero, and nearly the ratio
+    /// itself far below the threshold.
+    fn height(&self, ratio: f64) -> f64 {
+        let unit = self.threshold / 10.0;
+        if self.log && unit > 0.0 { ratio.signum() * (ratio.abs() / unit).ln_1p() } else { ratio }
+    }
+
     /// The largest |ratio| of some positions; none when none has a tolerance.
     fn worst(&self, positions: Range<usize>) -> Option<f64> {
         let all = self.pyramid.span_over(|i| span((self.ratio)(i)), positions);
@@ -88,39 +96,24 @@ impl ResidualPlot<'_> {
         }
         let bottom = if self.is_signed() { -top } else { 0.0 };
         for value in [bottom, top, 0.0, self.threshold] {
-            if let Some(row) = scale.row(value) {
+            if let Some(row) = scale.row(self.height(value)) {
                 paint.margin(row, &label(value), self.glyphs.tick(), self.theme.dim);
             }
         }
     }
 
     fn bars(&self, paint: &mut Paint<'_>, scale: YScale) {
-        let height = paint.height();
-        let threshold = scale.row(self.threshold);
+        let threshold = scale.row(self.height(self.threshold));
         let cursor = self.cursor.and_then(|position| self.columns.column_of(position));
+        let look = Bars { theme: self.theme, glyphs: self.glyphs, line: threshold };
         for column in 0..paint.width().min(self.columns.grid().width) {
             let worst = self.worst(self.columns.positions(column));
-            let over = worst.is_some_and(|worst| self.reaches(worst));
-            let beyond = worst.is_some_and(|worst| worst > self.top());
-            // The part of the height that the bar takes, in eighths of a cell; a bar of nothing still shows that
-            // there was something to judge.
-            let eighths = worst
-                .map_or(0.0, |worst| (worst.min(self.top()) / self.top() * f64::from(height) * 8.0).ceil().max(1.0))
-                as u32;
-            for row in 0..height {
-                let below = u32::from(height - 1 - row) * 8;
-                let fill = eighths.saturating_sub(below).min(8) as u8;
-                let bar = if over && self.glyphs == Glyphs::Ascii { '#' } else { self.glyphs.bar(fill) };
-                let style = if over { self.theme.over } else { self.theme.dim };
-                let (glyph, style) = match fill {
-                    _ if beyond && row == 0 => (self.glyphs.beyond(true, false), self.theme.over),
-                    0 if Some(row) == threshold => (self.glyphs.threshold(), self.theme.threshold),
-                    0 => (' ', Style::new()),
-                    _ => (bar, style),
-                };
-                let (glyph, style) = self.cursor(glyph, style, cursor == Some(column));
-                paint.put(column, row, glyph, style);
-            }
+            let bar = Bar {
+                share: worst.map(|worst| self.height(worst.min(self.top())) / self.height(self.top())),
+                over: worst.is_some_and(|worst| self.reaches(worst)),
+                beyond: worst.is_some_and(|worst| worst > self.top()),
+            };
+            look.column(paint, column, bar, cursor == Some(column));
         }
     }
 
@@ -134,9 +127,10 @@ impl ResidualPlot<'_> {
         {
             let column = dot_column / DOTS_PER_COLUMN;
             for ratio in (edges[0]..edges[1]).filter_map(self.ratio) {
-                match scale.row(ratio) {
+                let height = self.height(ratio);
+                match scale.row(height) {
                     Some(row) => {
-                        dots.set(dot_column as i32, scale.dot_row(ratio));
+                        dots.set(dot_column as i32, scale.dot_row(height));
                         over[usize::from(row) * usize::from(width) + column] |= self.reaches(ratio);
                     }
                     None => {
@@ -147,7 +141,7 @@ impl ResidualPlot<'_> {
             }
         }
         let cursor = self.cursor.and_then(|position| self.columns.column_of(position));
-        let lines = [scale.row(self.threshold), scale.row(-self.threshold)];
+        let lines = [self.threshold, -self.threshold].map(|at| scale.row(self.height(at)));
         for column in 0..width {
             let (above, below) = beyond[usize::from(column)];
             for row in 0..height {
@@ -164,20 +158,16 @@ impl ResidualPlot<'_> {
                 } else {
                     (' ', Style::new())
                 };
-                let (glyph, style) = self.cursor(glyph, style, cursor == Some(column));
+                let look = Bars { theme: self.theme, glyphs: self.glyphs, line: None };
+                let (glyph, style) = look.with_cursor(glyph, style, cursor == Some(column));
                 paint.put(column, row, glyph, style);
             }
         }
     }
-
-    /// Draws the cursor's column through what is empty.
-    fn cursor(&self, glyph: char, style: Style, on_cursor: bool) -> (char, Style) {
-        if on_cursor && glyph == ' ' { (self.glyphs.vertical(), self.theme.cursor_line) } else { (glyph, style) }
-    }
 }
 
 /// A ratio in few columns.
-fn label(value: f64) -> String {
+pub(super) fn label(value: f64) -> String {
     if value.abs() < 1000.0 { format!("{value:.1}") } else { format!("{value:.0}") }
 }
 
@@ -189,7 +179,8 @@ impl Widget for ResidualPlot<'_> {
     fn render(self, area: Rect, buffer: &mut Buffer) {
         let signed = self.is_signed();
         let area = area.intersection(*buffer.area());
-        let scale = YScale::new(if signed { -self.top() } else { 0.0 }, self.top(), area.height);
+        let top = self.height(self.top());
+        let scale = YScale::new(if signed { -top } else { 0.0 }, top, area.height);
         self.margin(&mut Paint::new(buffer, area), scale);
         let mut paint = Paint::new(buffer, right_of_margin(area));
         for row in 0..paint.height() {

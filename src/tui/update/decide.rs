@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::super::action::Action;
 use super::super::message::Effect;
 use super::super::model::{Model, Tone, Unit};
-use super::super::plot::{Axis, FlagState};
+use super::super::plot::FlagState;
 use super::review::{Stops, mark_at, neighbour};
 use super::{commit, navigate};
 use crate::plot::state;

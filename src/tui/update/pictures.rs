@@ -2,7 +2,7 @@
 
 use super::super::action::Action;
 use super::super::message::Effect;
-use super::super::model::{Model, Tone, YMode};
+use super::super::model::{LowerKind, Model, Tone, YMode};
 use super::super::picture::Picture;
 use super::super::plot::Layers;
 use crate::track::printable;
@@ -18,6 +18,8 @@ pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
             model.say(Tone::Done, if after { "after repair: as it will be written" } else { "before repair" });
         }
         Action::XAxis => other_x(model),
+        Action::NextLower => next_lower(model),
+        Action::LogScale => log_scale(model),
         _ => return None,
     }
     Some(Vec::new())
@@ -125,6 +127,31 @@ pub(super) fn layers_command(model: &mut Model, text: &str) -> Result<Vec<Effect
     let names = if names.is_empty() { "none but the flags".to_owned() } else { names.join(", ") };
     model.say(Tone::Done, format!("layers: {names}"));
     Ok(Vec::new())
+}
+
+fn next_lower(model: &mut Model) {
+    model.lower.kind = model.lower.kind.next();
+    let words = match model.lower.kind {
+        LowerKind::Residual => "residuals along the record",
+        LowerKind::Histogram => "histogram of the residuals of the whole record",
+        LowerKind::Steps => "steps of time from sample to sample",
+    };
+    model.say(Tone::Done, format!("{words} · R next picture"));
+}
+
+fn log_scale(model: &mut Model) {
+    let lower = &mut model.lower;
+    let (on, of) = match lower.kind {
+        LowerKind::Residual => (&mut lower.log_residual, "the residual"),
+        LowerKind::Histogram => (&mut lower.log_counts, "the counts"),
+        LowerKind::Steps => {
+            model.say(Tone::Warning, "steps of time are always on a logarithmic scale");
+            return;
+        }
+    };
+    *on = !*on;
+    let words = if *on { "logarithmic" } else { "linear" };
+    model.say(Tone::Done, format!("{words} scale of {of}"));
 }
 
 /// From time to sample number, or back: every channel keeps the samples that it has in view.

@@ -1,4 +1,4 @@
-//! The plots: overview, trace, residual.
+//! The plots of the channel on the screen: overview and trace.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -9,18 +9,16 @@ use super::super::action::Panel;
 use super::super::model::{Model, YMode};
 use super::super::picture::Picture;
 use super::super::plot::{
-    AxisLabels, Columns, Cursor, FlagRail, Layers, Overview, Pyramid, ResidualPlot, TickSteps, TracePlot, View,
-    tick_step,
+    AxisLabels, Columns, Cursor, FlagRail, Layers, Overview, TickSteps, TracePlot, View, tick_step,
 };
 use super::super::update::layer_names;
-use super::{heading, short, thousands};
-use crate::plot::Drawn;
+use super::{heading, thousands};
 use crate::track::TimeFormat;
 
 /// The plots of the channel on the screen.
 pub(super) struct Plots<'a> {
-    model: &'a Model,
-    picture: Picture<'a>,
+    pub(super) model: &'a Model,
+    pub(super) picture: Picture<'a>,
 }
 
 impl<'a> Plots<'a> {
@@ -144,28 +142,6 @@ impl<'a> Plots<'a> {
         let (steps, theme) = (TickSteps::Decimal, &self.model.theme);
         let label_width = u16::try_from(self.model.track.rows.to_string().len() + 1).unwrap_or(12);
         AxisLabels { view, steps, phase: 1.0, label_width, label: &label, unit: "row", theme }.render(row, buffer);
-    }
-
-    pub(super) fn residual(&self, area: Rect, buffer: &mut Buffer) {
-        let model = self.model;
-        let (theme, glyphs, state) = (&model.theme, model.glyphs, model.state());
-        let head = Rect { height: area.height.min(1), ..area };
-        let body = Rect { y: area.y + head.height, height: area.height - head.height, ..area };
-        let columns = &*self.picture.rail(TracePlot::plot_area(body).width);
-        let nothing = Pyramid::default();
-        let drawn = state.drawn.as_deref();
-        let pyramid = drawn.map_or(&nothing, |d| &d.ratios);
-        let ratio = |i: usize| drawn.and_then(|d| d.residual(&self.picture.series, i));
-        let cursor = Some(state.cursor);
-        let threshold = drawn.map_or(1.0, |d| d.threshold);
-        let top = ResidualPlot::top_for(threshold);
-        let widget = ResidualPlot { columns, ratio: &ratio, pyramid, threshold, top, theme, glyphs, cursor };
-        let unit = if drawn.is_some_and(Drawn::in_scales) { "scales" } else { "tolerances" };
-        let what = if widget.is_signed() { "in" } else { "worst per column in" };
-        let at = format!("{what} {unit}, flagged from {}  ", short(threshold));
-        let words = [Words::styled(at, theme.dim)];
-        heading(model, Panel::Residual, &words, head, buffer);
-        widget.render(body, buffer);
     }
 }
 

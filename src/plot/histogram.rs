@@ -1,0 +1,190 @@
+//! How often which residual occurs, counted once so that a frame costs no more than its columns.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+/// Bins between the edges: so many that columns made of them differ by a percent or two in width.
+const BINS: usize = 8192;
+
+/// Samples that one thread counts at a time.
+const CHUNK: usize = 1 << 18;
+
+/// How many samples, and how many of them are outliers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Tally {
+    /// Samples.
+    pub all: u32,
+    /// Outliers that hold among them.
+    pub flagged: u32,
+}
+
+/// The residuals of a channel between two edges that lie as far below zero as above, in bins of one width. Every
+/// sample is counted once: in a bin, below, above, or among those without a residual.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Histogram {
+    top: f64,
+    /// How many lie before each bin, and in all bins.
+    before: Vec<Tally>,
+    /// Those below the lower edge.
+    pub below: Tally,
+    /// Those above the upper edge.
+    pub above: Tally,
+    /// Those without a residual.
+    pub without: Tally,
+}
+
+impl Tally {
+    fn add(&mut self, flagged: bool) {
+        self.all += 1;
+        self.flagged += u32::from(flagged);
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self { all: self.all + other.all, flagged: self.flagged + other.flagged }
+    }
+
+    fn minus(self, other: Self) -> Self {
+        Self { all: self.all - other.all, flagged: self.flagged - other.flagged }
+    }
+}
+
+/// Counts of a part of the samples.
+struct Part {
+    bins: Vec<Tally>,
+    /// Below, above, without.
+    others: [Tally; 3],
+}
+
+impl Part {
+    fn new() -> Self {
+        Self { bins: vec![Tally::default(); BINS], others: [Tally::default(); 3] }
+    }
+
+    fn of(top: f64, range: Range<usize>, residual: &impl Fn(usize) -> Option<f64>, flagged: &[bool]) -> Self {
+        let mut part = Self::new();
+        for i in range {
+            let place = match residual(i) {
+                Some(r) if r < -top => &mut part.others[0],
+                Some(r) if r > top => &mut part.others[1],
+                Some(r) if !r.is_nan() => &mut part.bins[bin(top, r)],
+                _ => &mut part.others[2],
+            };
+            place.add(flagged[i]);
+        }
+        part
+    }
+
+    fn with(mut self, other: &Self) -> Self {
+        self.bins.iter_mut().zip(&other.bins).for_each(|(a, b)| *a = a.plus(*b));
+        self.others.iter_mut().zip(&other.others).for_each(|(a, b)| *a = a.plus(*b));
+        self
+    }
+}
+
+/// The bin of a residual between the edges.
+fn bin(top: f64, residual: f64) -> usize {
+    // A cast from float saturates; the upper edge belongs to the last bin.
+    let share = (residual + top) / (2.0 * top);
+    ((share * BINS as f64) as usize).min(BINS - 1)
+}
+
+impl Histogram {
+    /// Counts the residuals between `-top` and `top` (positive) of as many samples as `flagged` has entries.
+    #[must_use]
+    pub fn new(top: f64, residual: impl Fn(usize) -> Option<f64> + Sync, flagged: &[bool]) -> Self {
+        let starts = (0..flagged.len()).into_par_iter().step_by(CHUNK);
+        let part = |start: usize| Part::of(top, start..(start + CHUNK).min(flagged.len()), &residual, flagged);
+        let all = starts.map(part).reduce(Part::new, |a, b| a.with(&b));
+        let mut before = Vec::with_capacity(BINS + 1);
+        before.push(Tally::default());
+        let sums = all.bins.iter().scan(Tally::default(), |sum, tally| {
+            *sum = sum.plus(*tally);
+            Some(*sum)
+        });
+        before.extend(sums);
+        let [below, above, without] = all.others;
+        Self { top, before, below, above, without }
+    }
+
+    /// The upper edge.
+    #[must_use]
+    pub fn top(&self) -> f64 {
+        self.top
+    }
+
+    /// The counts of each of `width` columns from edge to edge.
+    #[must_use]
+    pub fn columns(&self, width: u16) -> Vec<Tally> {
+        let edge = |column: usize| (column * BINS).div_ceil(usize::from(width).max(1));
+        let before = |bin: usize| self.before.get(bin).copied().unwrap_or_default();
+        (0..usize::from(width)).map(|c| before(edge(c + 1)).minus(before(edge(c)))).collect()
+    }
+
+    /// The column of a residual among `width` columns; none beyond the edges.
+    #[must_use]
+    pub fn column_of(&self, residual: f64, width: u16) -> Option<u16> {
+        let inside = residual.abs() <= self.top && width > 0;
+        inside.then(|| u16::try_from(bin(self.top, residual) * usize::from(width) / BINS).unwrap_or(u16::MAX))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn residual() -> impl Strategy<Value = Option<f64>> {
+        let edge = [0.0, 10.0, -10.0, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, 1e308, 5e-324];
+        prop_oneof![
+            6 => (-11.0..11.0_f64).prop_map(Some),
+            2 => prop::sample::select(edge.to_vec()).prop_map(Some),
+            1 => Just(None),
+        ]
+    }
+
+    proptest! {
+        #[test]
+        fn every_sample_is_counted_once_and_in_the_column_that_is_said(
+            samples in prop::collection::vec((residual(), prop::bool::weighted(0.2)), 0..400), width in 1_u16..400,
+        ) {
+            let flagged: Vec<bool> = samples.iter().map(|s| s.1).collect();
+            let histogram = Histogram::new(10.0, |i| samples[i].0, &flagged);
+            let columns = histogram.columns(width);
+            let mut expected = vec![Tally::default(); usize::from(width)];
+            let (mut beyond, mut without) = (Tally::default(), Tally::default());
+            for (residual, flagged) in &samples {
+                match residual.filter(|r| !r.is_nan()) {
+                    None => without.add(*flagged),
+                    Some(r) => match histogram.column_of(r, width) {
+                        None => {
+                            prop_assert!(r.abs() > 10.0);
+                            beyond.add(*flagged);
+                        }
+                        Some(column) => {
+                            // By plain arithmetic, to within one bin.
+                            let plain = (r + 10.0) / 20.0 * f64::from(width);
+                            let slack = 1.0 + f64::from(width) / BINS as f64;
+                            prop_assert!((f64::from(column) + 0.5 - plain).abs() <= 0.5 * slack + 1e-9);
+                            expected[usize::from(column)].add(*flagged);
+                        }
+                    },
+                }
+            }
+            prop_assert_eq!(columns, expected);
+            prop_assert_eq!((histogram.below.plus(histogram.above), histogram.without), (beyond, without));
+        }
+    }
+
+    #[test]
+    fn parts_of_a_long_record_add_up() {
+        let n = 2 * CHUNK + 5;
+        let flagged = vec![true; n];
+        let histogram = Histogram::new(1.0, |i| Some(if i.is_multiple_of(2) { 0.5 } else { -2.0 }), &flagged);
+        let half = (n as u32).div_ceil(2);
+        assert_eq!(histogram.columns(2), [Tally::default(), Tally { all: half, flagged: half }]);
+        assert_eq!((histogram.below.all, histogram.above.all), (n as u32 - half, 0));
+        assert_eq!(Histogram::default().columns(3), [Tally::default(); 3]);
+    }
+}
