@@ -11,6 +11,7 @@ use crate::review::Decisions;
 use crate::track::{LoadOptions, Source, Track};
 
 mod analysis;
+mod ballot;
 mod cleaned;
 mod document;
 mod edit;
@@ -20,6 +21,7 @@ mod save;
 pub mod sweep;
 
 pub use analysis::{Counts, Detection, Fill, Mark, Outcome, Place, Run, detect, detect_together, settle};
+pub use ballot::{Agreement, Ballot, candidates};
 pub use cleaned::{changes, clean_sha256, write_cleaned};
 pub use document::{read, render};
 pub use edit::Edit;

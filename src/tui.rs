@@ -18,6 +18,7 @@ use crate::session::Session;
 use crate::stop::Stop;
 use crate::track::Track;
 use advice::Advise;
+use consensus::{Poll, Polling};
 use input::{ESC_TIMEOUT_MS, Normaliser};
 use journal::Journal;
 use message::{Effect, Message, Written};
@@ -31,6 +32,7 @@ use theme::Theme;
 
 pub mod action;
 pub mod advice;
+pub mod consensus;
 mod input;
 pub mod journal;
 pub mod keys;
@@ -127,9 +129,10 @@ pub fn run(opening: Opening, look: Look, journal: Option<PathBuf>) -> Result<End
     let mut model = opening.model(look);
     let (sender, messages) = unbounded();
     let (worker, advisor) = (office::judge(sender.clone()), advice::advise(sender.clone()));
+    let poller = consensus::poll(sender.clone());
     let signals = signals::listen()?;
     let journal = Journal::start(journal, &mut model, sender.clone());
-    let mut outside = Outside { worker, advisor, sender, journal };
+    let mut outside = Outside { worker, advisor, poller, sender, journal };
     let mut screen = Screen::take()?;
     let left = work(&mut model, &mut outside, &mut screen, &messages, &signals);
     let left = match left {
@@ -242,6 +245,7 @@ enum Next {
 struct Outside {
     worker: Worker<Judge>,
     advisor: Worker<Advise>,
+    poller: Worker<Poll>,
     sender: Sender<Message>,
     journal: Journal,
 }
@@ -269,6 +273,13 @@ impl Outside {
                 Effect::Advise(plan) => {
                     self.advisor.submit(Advise::new(model, plan));
                 }
+                Effect::Poll(plan) => {
+                    let poll = Poll::new(model, plan);
+                    let polling = poll.started(0);
+                    let generation = self.poller.submit(poll);
+                    model.polling = Some(Polling { generation, ..polling });
+                }
+                Effect::CancelPoll => self.poller.cancel(),
                 Effect::Cancel => {
                     self.advisor.cancel();
                     self.worker.cancel();

@@ -5,6 +5,8 @@
 
 #[path = "pty/journal.rs"]
 mod journal;
+#[path = "pty/pictures.rs"]
+mod pictures;
 mod program;
 mod terminal;
 

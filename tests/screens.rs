@@ -5,104 +5,21 @@
 
 #![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
 
-use std::path::PathBuf;
+mod workbench;
 
 use insta::{assert_debug_snapshot, assert_snapshot};
-use ratatui::buffer::Buffer;
-use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use ratatui::layout::Rect;
 use wildpoint::param::Value;
-use wildpoint::session::{Session, Setup};
 use wildpoint::stop::Stop;
-use wildpoint::track::{LoadOptions, Source, load};
 use wildpoint::tui::advice::Advise;
-use wildpoint::tui::message::{Effect, Message};
-use wildpoint::tui::model::Model;
-use wildpoint::tui::office::Judge;
-use wildpoint::tui::plot::Glyphs;
-use wildpoint::tui::theme::{ColorDepth, Theme};
+use wildpoint::tui::message::Message;
 use wildpoint::tui::update::update;
-use wildpoint::tui::{Look, Opening, text_of, view};
 
-const UNICODE_DARK: (Glyphs, ColorDepth) = (Glyphs::Unicode, ColorDepth::Indexed256);
-const ASCII_MONO: (Glyphs, ColorDepth) = (Glyphs::Ascii, ColorDepth::Never);
-
-/// A workbench whose results are there at once.
-struct Bench(Model);
-
-impl Bench {
-    /// On a record of `data/`, in a window of 80x24.
-    fn on(name: &str, (glyphs, depth): (Glyphs, ColorDepth)) -> Self {
-        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("data").join(name);
-        let options = LoadOptions::default();
-        let track = load(&Source::File(path), &options).unwrap();
-        let session = Session::new(&track, options, &Setup::standard());
-        let opening = Opening { track, session, file: None, notes: Vec::new() };
-        let model = opening.model(Look { theme: Theme::choose(depth, false), glyphs });
-        let mut bench = Self(model);
-        bench.judge(0);
-        bench
-    }
-
-    fn judge(&mut self, plan: usize) {
-        let result = Judge::new(&self.0, plan).run(&Stop::never()).map(Box::new);
-        self.0.awaited = Some(0);
-        update(&mut self.0, Message::Analysed { generation: 0, plan, result });
-    }
-
-    fn size(mut self, (width, height): (u16, u16)) -> Self {
-        update(&mut self.0, Message::Resize(width, height));
-        self
-    }
-
-    /// Presses keys: names stand between blanks, everything else is typed letter by letter.
-    fn keys(mut self, keys: &str) -> Self {
-        for name in keys.split(' ') {
-            let named = match name {
-                "Enter" => Some(KeyCode::Enter),
-                "Esc" => Some(KeyCode::Esc),
-                "Down" => Some(KeyCode::Down),
-                "Tab" => Some(KeyCode::Tab),
-                "Space" => Some(KeyCode::Char(' ')),
-                _ => None,
-            };
-            match named {
-                Some(code) => self.press(code),
-                None => name.chars().for_each(|c| self.press(KeyCode::Char(c))),
-            }
-        }
-        self
-    }
-
-    fn press(&mut self, code: KeyCode) {
-        let effects = update(&mut self.0, Message::Key(KeyEvent::new(code, KeyModifiers::NONE)));
-        for effect in effects {
-            match effect {
-                Effect::Analyse(plan) => self.judge(plan),
-                other => panic!("{other:?} is nothing for a still frame"),
-            }
-        }
-    }
-
-    fn buffer(&self) -> Buffer {
-        let (width, height) = self.0.size;
-        let area = Rect { x: 0, y: 0, width, height };
-        let mut buffer = Buffer::empty(area);
-        view::draw(&self.0, area, &mut buffer);
-        buffer
-    }
-
-    fn frame(&self) -> String {
-        text_of(&self.buffer())
-    }
-}
+use workbench::{ASCII_MONO, Bench, UNICODE_DARK, frames};
 
 /// Keeps a frame at both sizes, under `name` and the size.
 fn both(name: &str, keys: &str) {
-    for (label, size) in [("80x24", (80, 24)), ("120x40", (120, 40))] {
-        let bench = Bench::on("demo.csv", UNICODE_DARK).size(size);
-        let bench = if keys.is_empty() { bench } else { bench.keys(keys) };
-        assert_snapshot!(format!("{name}_{label}"), bench.frame());
+    for (label, frame) in frames(keys) {
+        assert_snapshot!(format!("{name}_{label}"), frame);
     }
 }
 
@@ -167,49 +84,6 @@ fn keys_that_follow_g() {
 #[test]
 fn record_after_repair_in_the_second_channel() {
     both("after_repair", "d n z b");
-}
-
-#[test]
-fn histogram_below_the_trace() {
-    both("histogram", "R");
-}
-
-#[test]
-fn steps_of_time_below_the_trace() {
-    both("steps", "R R");
-}
-
-#[test]
-fn residual_with_its_logarithm_over_sample_numbers() {
-    both("by_number", "L X n z -");
-}
-
-#[test]
-fn a_range_that_stays_and_chosen_layers() {
-    both("fixed_range", ":y Space -50 Space 150 Enter :layers Space raw Space band Enter");
-}
-
-#[test]
-fn pictures_in_ascii() {
-    for (name, keys) in [("histogram", "R"), ("steps", "R R")] {
-        let bench = Bench::on("demo.csv", ASCII_MONO).keys(keys);
-        assert_snapshot!(format!("ascii_{name}"), bench.frame());
-        assert!(bench.frame().is_ascii());
-    }
-}
-
-#[test]
-fn x_keeps_the_samples_in_view_when_it_becomes_the_number_and_back() {
-    let time = Bench::on("demo.csv", UNICODE_DARK).keys("n n z");
-    let (view, samples) = (time.0.state().view, time.0.in_view());
-    let number = time.keys("X");
-    assert_eq!(number.0.in_view(), samples);
-    // All rows of the record have a value: the number of a sample is its row.
-    assert!((number.0.state().view.from - samples.start as f64).abs() < 1.0);
-    let back = number.keys("X");
-    assert_eq!(back.0.in_view(), samples);
-    let near = |a: f64, b: f64| (a - b).abs() < 1e-9 * b.abs();
-    assert!(near(back.0.state().view.from, view.from) && near(back.0.state().view.to, view.to));
 }
 
 #[test]

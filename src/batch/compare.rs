@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::comparison::{Row, Skipped, Told};
-use super::consensus::{Ballot, written};
+use super::consensus::written;
 use super::{Ending, one_channel, print, print_json, set, set_threads};
 use crate::cli::CompareArgs;
 use crate::error::{Error, Result};
@@ -13,7 +13,7 @@ use crate::method::shared::MAX_GAP;
 use crate::method::{METHODS, Method, Verdict};
 use crate::review::Decisions;
 use crate::score::Score;
-use crate::session::{Preset, Setup, detect, method_of_id, settle};
+use crate::session::{Ballot, Preset, Setup, candidates, detect, method_of_id, settle};
 use crate::stop::Stop;
 use crate::track::{Samples, Track};
 
@@ -37,7 +37,8 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
         set::for_all(&setups, args.outputs.quiet || args.outputs.json, |setup| judge(&track, index, &samples, setup));
     let judged: Vec<(Row, Vec<Verdict>)> = judged.into_iter().collect::<Result<_>>()?;
     let (rows, verdicts): (Vec<Row>, Vec<Vec<Verdict>>) = judged.into_iter().unzip();
-    let ballot = Ballot::of(&verdicts, samples.series(channel, &track.time).len());
+    let mut ballot = Ballot::new(samples.series(channel, &track.time).len());
+    rows.iter().zip(&verdicts).for_each(|(row, verdict)| ballot.add(row.method, verdict));
     let consensus = match args.votes {
         Some(votes) => Some(written(args, votes, &track, index, &samples, &ballot)?),
         None => None,
@@ -48,7 +49,7 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
         samples: ballot.samples(),
         methods: rows,
         skipped,
-        agreement: ballot.agreement(setups.len()),
+        agreement: ballot.agreement(),
         consensus,
     };
     if args.outputs.json {
@@ -64,17 +65,8 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
 fn setups(args: &CompareArgs) -> Result<(Vec<Setup>, Vec<Skipped>)> {
     let named: Vec<&'static dyn Method> = args.method.iter().map(|id| method_of_id(id)).collect::<Result<_>>()?;
     let all = if named.is_empty() { METHODS } else { named.as_slice() };
-    let (mut setups, mut skipped) = (Vec::new(), Vec::new());
-    for &method in all {
-        let about = method.about();
-        if about.needs_rate && args.rate.is_none() {
-            skipped.push(Skipped { method: about.id, why: "needs a rate channel (--rate)" });
-            continue;
-        }
-        let mut setup = Setup::new(method, Preset::from(args.preset));
-        setup.rate.clone_from(&args.rate);
-        setups.push(setup);
-    }
+    let (mut setups, left_out) = candidates(all, Preset::from(args.preset), args.rate.as_deref());
+    let skipped = left_out.into_iter().map(|method| Skipped { method, why: "needs a rate channel (--rate)" }).collect();
     if setups.is_empty() {
         return Err(Error::usage("no method takes part", "name a rate channel with --rate, or another --method"));
     }

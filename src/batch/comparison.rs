@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::table::{columns, row};
 use crate::score::Score;
-use crate::session::Counts;
+use crate::session::{Agreement, Counts};
 use crate::track::printable;
 
 /// What one method says of the channel.
@@ -39,17 +39,6 @@ pub(super) struct Skipped {
     pub(super) method: &'static str,
     /// Why not.
     pub(super) why: &'static str,
-}
-
-/// How many samples so many methods flag.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub(super) struct Agreement {
-    /// Number of methods.
-    pub(super) methods: usize,
-    /// Samples that exactly so many flag.
-    pub(super) exactly: usize,
-    /// Samples that so many or more flag.
-    pub(super) at_least: usize,
 }
 
 /// A comparison.

@@ -4,18 +4,18 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::clean;
-use super::comparison::{Agreement, Row};
+use super::comparison::Row;
 use crate::cli::CompareArgs;
 use crate::error::{Error, Result};
 use crate::method::noise::Scales;
 use crate::method::shared::MAX_GAP;
-use crate::method::{About, Judged, Method, Own, Segment, Verdict, segments};
+use crate::method::{About, Judged, Method, Own, Segment, segments};
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::repair;
 use crate::report::Summary;
 use crate::review::Decisions;
 use crate::score::Score;
-use crate::session::{Analysed, Detection, Outcome, Preset, Session, Setup, settle};
+use crate::session::{Analysed, Ballot, Detection, Outcome, Preset, Session, Setup, settle};
 use crate::stop::{Stop, Stopped};
 use crate::track::{Outputs, Samples, Track};
 
@@ -53,59 +53,6 @@ impl Method for Consensus {
 
     fn judge(&self, segment: &Segment<'_>, _: &Settings, _: &Stop) -> std::result::Result<Judged, Stopped> {
         Ok(Judged::unchecked(segment.len()))
-    }
-}
-
-/// How many methods flag each sample, and how many could judge it.
-pub(super) struct Ballot {
-    flagged: Vec<u16>,
-    checked: Vec<u16>,
-}
-
-impl Ballot {
-    /// The votes of the methods, each with a verdict for each of `samples`.
-    pub(super) fn of(verdicts: &[Vec<Verdict>], samples: usize) -> Self {
-        let count = |counts: fn(Verdict) -> bool| {
-            let mut sums = vec![0_u16; samples];
-            for verdict in verdicts {
-                sums.iter_mut().zip(verdict).for_each(|(sum, v)| *sum += u16::from(counts(*v)));
-            }
-            sums
-        };
-        Self { flagged: count(|v| v == Verdict::Outlier), checked: count(|v| v != Verdict::Unchecked) }
-    }
-
-    /// How many samples there are.
-    pub(super) fn samples(&self) -> usize {
-        self.flagged.len()
-    }
-
-    /// How many samples are flagged by so many of `methods` methods, from one to all.
-    pub(super) fn agreement(&self, methods: usize) -> Vec<Agreement> {
-        let exactly = |k: usize| self.flagged.iter().filter(|f| usize::from(**f) == k).count();
-        let mut at_least = 0;
-        let mut all: Vec<Agreement> = Vec::new();
-        for methods in (1..=methods).rev() {
-            let exactly = exactly(methods);
-            at_least += exactly;
-            all.push(Agreement { methods, exactly, at_least });
-        }
-        all.reverse();
-        all
-    }
-
-    /// The verdicts when `votes` methods must agree: unchecked where so few could judge that they cannot.
-    fn verdicts(&self, votes: usize) -> Vec<Verdict> {
-        let verdict = |(&flagged, &checked): (&u16, &u16)| {
-            if usize::from(flagged) >= votes {
-                Verdict::Outlier
-            } else if usize::from(checked) < votes {
-                Verdict::Unchecked
-            } else {
-                Verdict::Normal
-            }
-        };
-        self.flagged.iter().zip(&self.checked).map(verdict).collect()
     }
 }
 
@@ -161,21 +108,4 @@ fn consensus(
     let scales = vec![Scales::default(); segments.len()];
     let detection = Detection { setup: setup.clone(), segments, scales, judged };
     Ok(settle(track, channel, samples, Arc::new(detection), &Decisions::default(), &Stop::never())?)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_vote_counts_who_flags_and_who_could_judge() {
-        use Verdict::{Normal as N, Outlier as O, Suspect as S, Unchecked as U};
-        let ballot = Ballot::of(&[vec![O, O, N, U, S], vec![O, N, N, U, N], vec![O, O, U, O, U]], 5);
-        assert_eq!(ballot.verdicts(1), [O, O, N, O, N]);
-        assert_eq!(ballot.verdicts(2), [O, O, N, U, N], "one of three judged the fourth sample");
-        assert_eq!(ballot.verdicts(3), [O, N, U, U, U]);
-        let agreement = ballot.agreement(3);
-        let of = |f: fn(&Agreement) -> usize| agreement.iter().map(f).collect::<Vec<_>>();
-        assert_eq!((of(|a| a.exactly), of(|a| a.at_least)), (vec![1, 1, 1], vec![3, 2, 1]));
-    }
 }

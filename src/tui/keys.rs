@@ -114,6 +114,13 @@ pub static KEYMAP: &[Binding] = {
         row(View, &["X"], A::XAxis, "x is time or the number of the sample", ""),
         row(View, &["R"], A::NextLower, "below the trace: residual, histogram, steps of time", ""),
         row(View, &["L"], A::LogScale, "logarithmic scale of the residual or of the counts", ""),
+        row(View, &["C"], A::Consensus, "all methods at once: how many flag each sample", ""),
+        row(View, &["g h"], A::NextAgreed, "next sample that half of the methods flag", ""),
+        row(View, &["B"], A::Pin, "pin the result as A and go on with B, or unpin it", ""),
+        row(View, &["g d"], A::NextDifference, "next difference between A and B", ""),
+        row(View, &["g D"], A::PreviousDifference, "previous difference between A and B", ""),
+        row(View, &["g b"], A::AdoptPinned, "back to the settings of A (one undo step)", ""),
+        row(View, &["V"], A::Second, "the channel beside this one, from 160 columns on", ""),
         row(View, &["t"], A::Layers, "layers: all, without the band, curve alone (:layers -raw)", ""),
         row(View, &["b"], A::BeforeAfter, "before and after repair", ""),
         row(View, &["d"], A::NextChannel, "next channel", "channel"),
@@ -295,6 +302,7 @@ mod tests {
                     | A::Clear
                     | A::ByHand
                     | A::AcceptView
+                    | A::AdoptPinned
                     | A::RejectView
                     | A::ClearView
                     | A::Epoch

@@ -11,6 +11,8 @@ pub const LEAST: (u16, u16) = (40, 10);
 
 /// From this width on, parameters and queue have a column of their own.
 const WIDE: u16 = 110;
+/// From this width on, a second channel has a trace of its own.
+pub(super) const SECOND: u16 = 160;
 /// The width of that column, and of the drawer that takes its place on narrower screens.
 const SIDE: u16 = 38;
 
@@ -23,6 +25,8 @@ pub struct Areas {
     pub overview: Option<Rect>,
     /// The trace with its heading, rail and time axis.
     pub trace: Option<Rect>,
+    /// The trace of a second channel with its heading and rail.
+    pub second: Option<Rect>,
     /// The residual with its heading.
     pub residual: Option<Rect>,
     /// Method and parameters with their heading.
@@ -50,7 +54,11 @@ pub fn arrange(model: &Model) -> Option<Areas> {
     if model.maximised {
         return Some(maximised(whole, model.focus));
     }
-    Some(if width >= WIDE && height >= 24 { wide(whole) } else { compact(whole, model.focus) })
+    Some(if width >= WIDE && height >= 24 {
+        wide(whole, width >= SECOND && model.second_plan().is_some())
+    } else {
+        compact(whole, model.focus)
+    })
 }
 
 /// Takes `height` rows off the top of what is left.
@@ -69,7 +77,7 @@ fn bottom(rest: &mut Rect, height: u16) -> Rect {
     Rect { y: rest.y + rest.height, height, ..*rest }
 }
 
-fn wide(whole: Rect) -> Areas {
+fn wide(whole: Rect, second: bool) -> Areas {
     let mut rest = whole;
     let title = top(&mut rest, 1);
     let footer = bottom(&mut rest, 1);
@@ -85,7 +93,11 @@ fn wide(whole: Rect) -> Areas {
     let card = bottom(&mut rest, 6);
     let third = rest.height / 3;
     let residual = bottom(&mut rest, third.clamp(5, 12));
+    // Where the trace would keep too little of its height, it has it all.
+    let half = rest.height * 2 / 5;
+    let second = (second && half >= 5).then(|| bottom(&mut rest, half));
     Areas {
+        second,
         title,
         overview: Some(overview),
         trace: Some(rest),
@@ -119,7 +131,20 @@ fn compact(whole: Rect, focus: Panel) -> Areas {
     };
     let parameters = (focus == Panel::Parameters).then_some(drawer);
     let queue = (focus == Panel::Queue).then_some(drawer);
-    Areas { title, overview, trace: Some(rest), residual, parameters, queue, card: Some(card), knobs, toast, footer }
+    let second = None;
+    Areas {
+        title,
+        overview,
+        trace: Some(rest),
+        second,
+        residual,
+        parameters,
+        queue,
+        card: Some(card),
+        knobs,
+        toast,
+        footer,
+    }
 }
 
 fn maximised(whole: Rect, focus: Panel) -> Areas {
@@ -163,11 +188,16 @@ mod tests {
         for width in LEAST.0..200 {
             for height in LEAST.1..70 {
                 let whole = Rect { x: 0, y: 0, width, height };
-                let areas = if width >= WIDE && height >= 24 { wide(whole) } else { compact(whole, Panel::Trace) };
+                let areas = if width >= WIDE && height >= 24 {
+                    wide(whole, width % 2 == 0)
+                } else {
+                    compact(whole, Panel::Trace)
+                };
                 let panels = [
                     Some(areas.title),
                     areas.overview,
                     areas.trace,
+                    areas.second,
                     areas.residual,
                     areas.parameters,
                     areas.queue,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use ratatui::crossterm::event::KeyEvent;
 
 use super::advice::Advice;
+use super::consensus::Consensus;
 use crate::error::{Error, Result};
 use crate::plot::Drawn;
 
@@ -32,6 +33,22 @@ pub enum Message {
         plan: usize,
         /// The counts, and what they were found for.
         advice: Box<Advice>,
+    },
+    /// So many methods have answered about a channel.
+    Polling {
+        /// The job it answers.
+        generation: u64,
+        /// How many.
+        done: usize,
+    },
+    /// All methods have answered about a channel.
+    Polled {
+        /// The job it answers.
+        generation: u64,
+        /// Index of the plan.
+        plan: usize,
+        /// Their votes.
+        consensus: Box<Consensus>,
     },
     /// There is nothing to sweep under the settings as they were.
     NoAdvice,
@@ -83,6 +100,10 @@ pub enum Effect {
     Analyse(usize),
     /// Find the counts along the multiplier of the channel of this plan, when nothing else is to do.
     Advise(usize),
+    /// Ask all methods about the channel of this plan.
+    Poll(usize),
+    /// Abandon asking them.
+    CancelPoll,
     /// Abandon the running judgement.
     Cancel,
     /// Write the session.

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::action::Panel;
 use super::advice::Advice;
+use super::consensus::Polling;
 use super::plot::{Axis, Glyphs};
 use super::theme::Theme;
 use crate::param::Param;
@@ -20,8 +21,8 @@ mod lower;
 mod overlay;
 mod review;
 
-pub use channel::{ChannelState, YMode};
-pub use lower::{Lower, LowerKind};
+pub use channel::{ChannelState, Pinned, YMode};
+pub use lower::{Lower, LowerKind, Second};
 pub use overlay::{Overlay, Picker, PickerKind, Prompt, PromptKind};
 pub use review::{Group, Reviewing, Sort, Unit};
 
@@ -66,6 +67,10 @@ pub struct Model {
     pub review: Reviewing,
     /// The picture below the trace.
     pub lower: Lower,
+    /// Which channel is shown beside the one on the screen.
+    pub second: Second,
+    /// How far all methods have been asked.
+    pub polling: Option<Polling>,
     /// True when x is the number of the sample, false when it is its time.
     pub by_number: bool,
     /// Whether the next quit is meant.
@@ -132,6 +137,8 @@ impl Model {
             awaited: None,
             review: Reviewing::default(),
             lower: Lower::default(),
+            second: Second::default(),
+            polling: None,
             by_number: false,
             interrupted: false,
             unjournalled: Vec::new(),
@@ -178,6 +185,18 @@ impl Model {
     #[must_use]
     pub fn in_view(&self) -> std::ops::Range<usize> {
         self.state().view.positions(self.axis(&self.series()))
+    }
+
+    /// The plan of the channel that is shown beside the one on the screen, where there is room for it.
+    #[must_use]
+    pub fn second_plan(&self) -> Option<usize> {
+        let next = (self.shown + 1) % self.channels.len().max(1);
+        let plan = match self.second {
+            Second::Off => return None,
+            Second::Plan(plan) if plan != self.shown && plan < self.channels.len() => plan,
+            Second::Next | Second::Plan(_) => next,
+        };
+        (plan != self.shown).then_some(plan)
     }
 
     /// True when the document has changed since it was saved.

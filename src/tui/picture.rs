@@ -7,6 +7,7 @@ use super::model::{ChannelState, Model, YMode};
 use super::plot::{Axis, Columns, Curve, Flags, Grid, Layers, Memo, Pyramid, Span, Trace, View, YFit};
 use crate::method::shared::MAX_GAP;
 use crate::plot::{Drawn, StepColumn, Steps};
+use crate::score::Score;
 use crate::track::Series;
 
 /// What was reduced for the last frame, for the next one, which mostly shows the same.
@@ -15,9 +16,11 @@ pub struct Pictures {
     overview: Memo<Key, Columns>,
     trace: Memo<Key, Columns>,
     rail: Memo<Key, Columns>,
+    second: Memo<Key, Columns>,
     /// The samples while there is no result yet.
     plain: Memo<(), Pyramid>,
     steps: Memo<(), Steps>,
+    score: Memo<u64, Score>,
 }
 
 /// All that columns are made of.
@@ -70,6 +73,15 @@ impl<'a> Picture<'a> {
         self.columns(&self.state.pictures.trace, Key { after: self.state.after, ..key })
     }
 
+    /// The trace over the x range of another channel, by time.
+    pub(super) fn beside(&self, other: &Self, size: (u16, u16)) -> Arc<Columns> {
+        let mut view = other.state.view;
+        if self.by_number {
+            view = view.on_other(other.axis()).on_other(self.axis().other());
+        }
+        self.columns(&self.state.pictures.second, self.key(self.state.layers, view, self.fit(), size))
+    }
+
     /// The flags over the same x range, when the trace shows the record after repair, without them.
     pub(super) fn rail(&self, width: u16) -> Arc<Columns> {
         self.columns(&self.state.pictures.rail, self.key(Layers::NONE, self.state.view, YFit::Kept, (width, 1)))
@@ -89,6 +101,12 @@ impl<'a> Picture<'a> {
     /// The steps of time in each of some columns.
     pub(super) fn step_columns(&self, columns: &Columns) -> Vec<StepColumn> {
         self.steps().columns(columns, &self.series, self.max_gap)
+    }
+
+    /// The result against the truth; none without a result.
+    pub(super) fn score(&self, truth: &[bool]) -> Option<Arc<Score>> {
+        let outcome = &self.drawn?.outcome;
+        Some(self.state.pictures.score.get(self.state.results, || Score::of(outcome, &self.series, truth)))
     }
 
     /// The y range of the trace.

@@ -47,9 +47,11 @@ mod overview;
 mod paint;
 mod rail;
 mod residual;
+mod sides;
 mod steps;
 mod ticks;
 mod trace;
+mod votes;
 
 pub use crate::plot::{
     Axis, ColumnSummary, Columns, Curve, Flag, FlagState, Flags, Grid, LABEL_WIDTH, Pyramid, Span, Trace, ValueLabels,
@@ -62,9 +64,11 @@ pub use memo::Memo;
 pub use overview::Overview;
 pub use rail::FlagRail;
 pub use residual::ResidualPlot;
+pub use sides::{SideMarks, SideRail};
 pub use steps::StepPlot;
 pub use ticks::{AxisLabels, TickSteps, tick_step};
 pub use trace::{Cursor, Layers, TracePlot};
+pub use votes::VotesPlot;
 
 /// Columns left of a plot: labels of the y axis, and the axis.
 pub const GUTTER: u16 = LABEL_WIDTH as u16 + 1;

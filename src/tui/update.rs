@@ -9,6 +9,8 @@ use crate::error::Error;
 
 mod channels;
 mod command;
+mod compare;
+mod consensus;
 pub(super) mod decide;
 pub(super) mod describe;
 mod files;
@@ -65,6 +67,14 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
             Vec::new()
         }
         Message::NoAdvice => Vec::new(),
+        Message::Polling { generation, done } => {
+            consensus::polling(model, generation, done);
+            Vec::new()
+        }
+        Message::Polled { generation, plan, consensus } => {
+            consensus::polled(model, generation, plan, consensus);
+            Vec::new()
+        }
         Message::Written { what, path, result } => files::written(model, what, &path, result),
         Message::Unjournalled(e) => {
             let text = e.to_string().replace("\n  ", "; ");
@@ -146,10 +156,13 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
         | Action::AcceptView
         | Action::RejectView
         | Action::ClearView => decide::act(model, action),
-        _ => pictures::act(model, action).unwrap_or_else(|| {
-            navigate::act(model, action);
-            Vec::new()
-        }),
+        _ => {
+            let done = pictures::act(model, action).or_else(|| compare::act(model, action));
+            done.or_else(|| consensus::act(model, action)).unwrap_or_else(|| {
+                navigate::act(model, action);
+                Vec::new()
+            })
+        }
     }
 }
 
@@ -164,7 +177,10 @@ pub(super) fn show(model: &mut Model, plan: usize) -> Vec<Effect> {
     turn_to(model, plan);
     let text = format!("{} · channel {} of {}", model.plan().channel, plan + 1, model.channels.len());
     model.say(Tone::Done, text);
-    if model.state().stale && model.state().error.is_none() { vec![Effect::Analyse(plan)] } else { Vec::new() }
+    let judge = model.state().stale && model.state().error.is_none();
+    let mut effects = if judge { vec![Effect::Analyse(plan)] } else { Vec::new() };
+    effects.extend(consensus::wanted(model));
+    effects
 }
 
 /// Puts another channel on the screen: a range that was selected has no meaning there.
@@ -201,10 +217,13 @@ fn analysed(
             (state.drawn, state.queue, state.flags) = (None, Vec::new(), super::plot::Flags::default());
             state.results += 1;
             state.error = Some(text.clone());
+            compare::refresh(model, plan);
             model.say(Tone::Error, text);
         }
     }
-    tune::advise(model, plan)
+    let mut effects = tune::advise(model, plan);
+    effects.extend(consensus::wanted(model));
+    effects
 }
 
 /// Decisions of a session that was opened were made under the method as it is now.
@@ -269,6 +288,9 @@ fn back(model: &mut Model) -> Vec<Effect> {
     } else if model.awaited.take().is_some() {
         model.say(Tone::Warning, "computation stopped; any change starts it again");
         return vec![Effect::Cancel];
+    } else if model.polling.take().is_some() {
+        model.say(Tone::Warning, "no method is asked any more; C twice asks them again");
+        return vec![Effect::CancelPoll];
     } else {
         model.focus = Panel::Trace;
     }

@@ -12,6 +12,7 @@ use super::layout::{self, LEAST};
 use super::model::{Model, Overlay, Tone};
 
 mod card;
+mod compare;
 mod footer;
 mod journal;
 mod lower;
@@ -22,6 +23,7 @@ mod plots;
 mod queue;
 mod reasons;
 mod recover;
+mod second;
 mod title;
 
 /// Draws the workbench.
@@ -48,6 +50,9 @@ fn draw_panels(model: &Model, area: Rect, buffer: &mut Buffer) {
     }
     if let Some(area) = areas.trace {
         plots.trace(area, buffer);
+    }
+    if let Some(area) = areas.second {
+        plots.second(area, buffer);
     }
     if let Some(area) = areas.residual {
         plots.lower(area, buffer);

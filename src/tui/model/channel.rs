@@ -4,12 +4,13 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::super::advice::Advice;
+use super::super::consensus::Consensus;
 use super::super::picture::Pictures;
 use super::super::plot::{Axis, Flags, Layers, View};
 use super::Group;
 use crate::param::Settings;
-use crate::plot::Drawn;
-use crate::session::Plan;
+use crate::plot::{Drawn, Sides};
+use crate::session::{Plan, Setup};
 use crate::track::{Samples, Track};
 
 /// What the workbench keeps for a channel, shown or not.
@@ -47,6 +48,10 @@ pub struct ChannelState {
     pub layers: Layers,
     /// True when the record is shown as it will be after repair.
     pub after: bool,
+    /// A: the result that B, the one on the screen, is compared with.
+    pub pinned: Option<Box<Pinned>>,
+    /// What all methods say, when they were asked.
+    pub consensus: Option<Arc<Consensus>>,
     /// Counts the results that were shown.
     pub results: u64,
     /// What was reduced for the last frame.
@@ -57,6 +62,17 @@ pub struct ChannelState {
     pub knob: usize,
     /// Settings of methods that were tuned and left, by id.
     pub tuned: HashMap<&'static str, Settings>,
+}
+
+/// A result that was pinned.
+#[derive(Debug)]
+pub struct Pinned {
+    /// What it was made with.
+    pub setup: Setup,
+    /// Positions that its method flags, ascending.
+    pub flagged: Vec<u32>,
+    /// Against those that the method now flags; none while there is no result.
+    pub sides: Option<Sides>,
 }
 
 /// How the y range is chosen.
@@ -96,6 +112,8 @@ impl ChannelState {
             y_fit: YMode::default(),
             layers: Layers::ALL,
             after: false,
+            pinned: None,
+            consensus: None,
             results: 0,
             pictures: Pictures::default(),
             cursor: 0,

@@ -1,4 +1,4 @@
-//! The picture below the trace.
+//! The picture below the trace, and the channel beside it.
 
 /// Which picture lies below the trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -10,6 +10,20 @@ pub enum LowerKind {
     Histogram,
     /// The steps of time from sample to sample.
     Steps,
+    /// How many methods flag each sample.
+    Consensus,
+}
+
+/// Which channel is shown beside the one on the screen, where there is room for two.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Second {
+    /// The next one.
+    #[default]
+    Next,
+    /// That of this plan.
+    Plan(usize),
+    /// None.
+    Off,
 }
 
 /// The picture below the trace, and its scales.
@@ -31,7 +45,7 @@ impl Default for Lower {
 }
 
 impl LowerKind {
-    /// All of them, in the order in which they are shown.
+    /// Those that follow each other; the consensus is asked for by a key of its own.
     pub const ALL: [Self; 3] = [Self::Residual, Self::Histogram, Self::Steps];
 
     /// Its name on the screen.
@@ -41,13 +55,14 @@ impl LowerKind {
             Self::Residual => "residual",
             Self::Histogram => "histogram",
             Self::Steps => "steps of time",
+            Self::Consensus => "all methods",
         }
     }
 
     /// The one after it.
     #[must_use]
     pub fn next(self) -> Self {
-        let at = Self::ALL.iter().position(|kind| *kind == self).unwrap_or(0);
-        Self::ALL[(at + 1) % Self::ALL.len()]
+        let at = Self::ALL.iter().position(|kind| *kind == self);
+        Self::ALL[at.map_or(0, |at| (at + 1) % Self::ALL.len())]
     }
 }

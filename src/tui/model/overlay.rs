@@ -46,6 +46,8 @@ pub enum PickerKind {
     Channel,
     /// The channel that measures the rate.
     Rate,
+    /// The channel beside the one on the screen.
+    Second,
 }
 
 /// A line to type in.

@@ -85,6 +85,7 @@ pub(super) fn arrange(model: &mut Model, plan: usize, drawn: Drawn) {
     state.drawn = Some(Arc::new(drawn));
     state.stale = false;
     state.error = None;
+    super::compare::refresh(model, plan);
     // What stood in the way no longer does.
     if model.toast.as_ref().is_some_and(|t| t.tone == Tone::Error) {
         model.toast = None;

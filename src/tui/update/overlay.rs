@@ -5,7 +5,7 @@ use tui_input::{Input, InputRequest};
 
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
-use super::{command, files, journal, note, recover, set_up, show, tune};
+use super::{command, files, journal, note, pictures, recover, set_up, show, tune};
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
 use crate::track::printable;
@@ -44,6 +44,16 @@ pub(super) fn entries(model: &Model, kind: PickerKind) -> Vec<Entry> {
                 .iter()
                 .map(|r| Entry { id: r.id.into(), help: r.help.into(), group: "", current: r.id == chosen })
                 .collect()
+        }
+        PickerKind::Second => {
+            let current = model.second_plan();
+            let others = model.session.plans.iter().enumerate().filter(|(plan, _)| *plan != model.shown);
+            let entry = |id: &str, help: String, current: bool| Entry { id: id.to_owned(), help, group: "", current };
+            let unit = |plan: usize| printable(&model.track.channels[model.channels[plan].channel].unit);
+            let mut all: Vec<Entry> =
+                others.map(|(plan, p)| entry(&p.channel, unit(plan), current == Some(plan))).collect();
+            all.push(entry(pictures::NO_SECOND, "the channel on the screen alone".into(), current.is_none()));
+            all
         }
         PickerKind::Channel | PickerKind::Rate => {
             let rate = kind == PickerKind::Rate;
@@ -162,6 +172,10 @@ fn chosen(model: &mut Model, kind: PickerKind, id: String) -> Vec<Effect> {
         PickerKind::Channel => {
             let plan = model.session.plans.iter().position(|p| p.channel == id);
             plan.map(|plan| show(model, plan)).unwrap_or_default()
+        }
+        PickerKind::Second => {
+            pictures::set_second(model, &id);
+            Vec::new()
         }
         PickerKind::Rate => {
             let mut after = model.plan().setup.clone();

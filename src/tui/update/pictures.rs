@@ -1,10 +1,12 @@
 //! What the plots show of the record: axes, layers, and which picture lies below the trace.
 
 use super::super::action::Action;
+use super::super::layout;
 use super::super::message::Effect;
-use super::super::model::{LowerKind, Model, Tone, YMode};
+use super::super::model::{LowerKind, Model, PickerKind, Second, Tone, YMode};
 use super::super::picture::Picture;
 use super::super::plot::Layers;
+use super::picker;
 use crate::track::printable;
 
 /// Does an action that is about the pictures; none when it is about something else.
@@ -20,6 +22,7 @@ pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
         Action::XAxis => other_x(model),
         Action::NextLower => next_lower(model),
         Action::LogScale => log_scale(model),
+        Action::Second => return Some(picker(model, PickerKind::Second)),
         _ => return None,
     }
     Some(Vec::new())
@@ -135,6 +138,7 @@ fn next_lower(model: &mut Model) {
         LowerKind::Residual => "residuals along the record",
         LowerKind::Histogram => "histogram of the residuals of the whole record",
         LowerKind::Steps => "steps of time from sample to sample",
+        LowerKind::Consensus => "how many methods flag each sample",
     };
     model.say(Tone::Done, format!("{words} · R next picture"));
 }
@@ -144,14 +148,33 @@ fn log_scale(model: &mut Model) {
     let (on, of) = match lower.kind {
         LowerKind::Residual => (&mut lower.log_residual, "the residual"),
         LowerKind::Histogram => (&mut lower.log_counts, "the counts"),
-        LowerKind::Steps => {
-            model.say(Tone::Warning, "steps of time are always on a logarithmic scale");
+        LowerKind::Steps | LowerKind::Consensus => {
+            let name = lower.kind.name();
+            model.say(Tone::Warning, format!("{name}: there is only one scale"));
             return;
         }
     };
     *on = !*on;
     let words = if *on { "logarithmic" } else { "linear" };
     model.say(Tone::Done, format!("{words} scale of {of}"));
+}
+
+/// The entry that shows no second channel.
+pub(super) const NO_SECOND: &str = "(none)";
+
+/// Chooses the channel beside the one on the screen by its name.
+pub(super) fn set_second(model: &mut Model, name: &str) {
+    let plan = model.session.plans.iter().position(|p| p.channel == name);
+    model.second = match plan {
+        Some(plan) => Second::Plan(plan),
+        None => Second::Off,
+    };
+    let room = if model.size.0 < layout::SECOND { " (the screen has room for it from 160 columns on)" } else { "" };
+    let text = match plan {
+        Some(_) => format!("beside it: {}{room}", printable(name)),
+        None => "no second channel".to_owned(),
+    };
+    model.say(Tone::Done, text);
 }
 
 /// From time to sample number, or back: every channel keeps the samples that it has in view.

@@ -10,7 +10,7 @@ use super::super::model::Model;
 use super::super::plot::{FlagState, Glyphs};
 use super::super::update::mark_at;
 use super::queue::ratio_text;
-use super::{clear, heading, several_days, short};
+use super::{clear, compare, heading, several_days, short};
 use crate::method::{Direction, Verdict};
 use crate::plot::{Drawn, state};
 use crate::session::Mark;
@@ -28,12 +28,17 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         return;
     }
     let narrow = area.width < 100;
-    let lines = [
+    let mut lines = vec![
         measured(model, &series, cursor, narrow),
         judged(model, &series, cursor, mark.as_ref(), narrow),
         neighbours(model, &series, cursor),
         remarks(model, &series, cursor, mark.as_ref()),
     ];
+    // What all methods say goes before the neighbours.
+    lines.extend(compare::votes(model, cursor));
+    if lines.len() > 4 {
+        lines[2..].rotate_right(1);
+    }
     // Where there is room for two lines, the neighbours go first, then the remarks.
     for (i, line) in lines.into_iter().enumerate() {
         let i = u16::try_from(i).unwrap_or(0);
@@ -60,6 +65,9 @@ fn heading_words(model: &Model, mark: Option<&Mark>) -> Vec<Span<'static>> {
     }
     if mark.is_some_and(Mark::conflict) {
         spans.push(Span::styled("! the method now says otherwise  ", theme.warning));
+    }
+    if let Some(who) = compare::who(model, model.state().cursor) {
+        spans.push(Span::styled(format!("{who}  "), theme.title));
     }
     spans
 }

@@ -7,10 +7,11 @@ use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
 use super::super::model::LowerKind;
-use super::super::plot::{HistogramPlot, Pyramid, ResidualPlot, StepPlot, TracePlot};
+use super::super::plot::{HistogramPlot, Pyramid, ResidualPlot, StepPlot, TracePlot, VotesPlot};
 use super::plots::Plots;
-use super::{heading_named, short, thousands};
+use super::{compare, heading_named, short, thousands};
 use crate::plot::{Drawn, Histogram, Tally};
+use crate::session::Ballot;
 
 impl Plots<'_> {
     /// Draws the picture below the trace with its heading.
@@ -20,6 +21,7 @@ impl Plots<'_> {
             LowerKind::Residual => self.residual(body, buffer),
             LowerKind::Histogram => self.histogram(body, buffer),
             LowerKind::Steps => self.steps(body, buffer),
+            LowerKind::Consensus => self.consensus(body, buffer),
         };
         let head = Rect { height: area.height.min(1), ..area };
         heading_named(self.model, Panel::Residual, self.model.lower.kind.name(), &words, head, buffer);
@@ -87,6 +89,16 @@ impl Plots<'_> {
             n => format!(", {} flagged", thousands(n as usize)),
         };
         (tally.all > 0).then(|| Words::styled(format!("{what}: {}{flagged}  ", thousands(tally.all as usize)), style))
+    }
+
+    fn consensus(&self, area: Rect, buffer: &mut Buffer) -> Vec<Words<'static>> {
+        let (model, state) = (self.model, self.model.state());
+        let columns = &*self.picture.rail(TracePlot::plot_area(area).width);
+        let (ballot, pyramid) = (Ballot::default(), Pyramid::default());
+        let (ballot, pyramid) = state.consensus.as_deref().map_or((&ballot, &pyramid), |c| (&c.ballot, &c.pyramid));
+        let (theme, glyphs, cursor) = (&model.theme, model.glyphs, Some(state.cursor));
+        VotesPlot { ballot, pyramid, columns, cursor, theme, glyphs }.render(area, buffer);
+        compare::consensus_words(model)
     }
 
     fn steps(&self, area: Rect, buffer: &mut Buffer) -> Vec<Words<'static>> {

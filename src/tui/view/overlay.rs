@@ -144,6 +144,7 @@ fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) {
         PickerKind::Repair => "repair",
         PickerKind::Channel => "channel",
         PickerKind::Rate => "channel that measures the rate",
+        PickerKind::Second => "channel beside the one on the screen",
     };
     let found = narrowed(model, picker);
     let groups = found.windows(2).filter(|w| w[0].group != w[1].group).count();

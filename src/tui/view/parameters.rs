@@ -9,7 +9,7 @@ use super::super::action::Panel;
 use super::super::advice::Advice;
 use super::super::model::{Knob, Model};
 use super::super::update::value_text;
-use super::{clear, fit, heading, short, thousands};
+use super::{clear, compare, fit, heading, short, thousands};
 use crate::param::Value;
 use crate::plot::Drawn;
 use crate::track::printable;
@@ -100,6 +100,8 @@ fn notes(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
     if let Some(drawn) = &model.state().drawn {
         blocks.push(counts(drawn, width));
     }
+    let pinned = compare::rows(model);
+    blocks.extend(pinned.map(|rows| rows.into_iter().map(|row| (fit(&row, width), false)).collect()));
     let advice = model.advice().map(|advice| advice_rows(model, advice, width));
     let about_it = model.advice().is_some_and(|advice| model.knob().name() == advice.sweep.key);
     if about_it {

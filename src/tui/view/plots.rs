@@ -9,10 +9,10 @@ use super::super::action::Panel;
 use super::super::model::{Model, YMode};
 use super::super::picture::Picture;
 use super::super::plot::{
-    AxisLabels, Columns, Cursor, FlagRail, Layers, Overview, TickSteps, TracePlot, View, tick_step,
+    AxisLabels, Columns, Cursor, FlagRail, Layers, Overview, SideMarks, SideRail, TickSteps, TracePlot, View, tick_step,
 };
 use super::super::update::layer_names;
-use super::{heading, thousands};
+use super::{compare, heading, thousands};
 use crate::track::TimeFormat;
 
 /// The plots of the channel on the screen.
@@ -39,6 +39,8 @@ impl<'a> Plots<'a> {
         let head = Rect { height: area.height.min(1), ..area };
         let mut body = Rect { y: area.y + head.height, height: area.height - head.height, ..area };
         let axis_row = (body.height >= 5).then(|| take_bottom(&mut body));
+        let sides = state.pinned.as_deref().and_then(|p| p.sides.as_ref());
+        let side_row = sides.filter(|_| body.height >= 6).map(|_| take_bottom(&mut body));
         let rail_row = take_bottom(&mut body);
         let plot = TracePlot::plot_area(body);
         let columns = &*self.picture.trace((plot.width, body.height));
@@ -53,6 +55,10 @@ impl<'a> Plots<'a> {
         heading(model, Panel::Trace, &words, head, buffer);
         widget.render(body, buffer);
         let cursor = Some(state.cursor);
+        if let Some(sides) = sides {
+            SideMarks { sides, columns, y: &self.picture.series.y, theme }.render(body, buffer);
+            SideRail { sides, columns, cursor, theme, glyphs }.render(side_row.unwrap_or_default(), buffer);
+        }
         let columns = with_flags.as_deref().unwrap_or(columns);
         FlagRail { columns, theme, glyphs, label: "flags", cursor }.render(rail_row, buffer);
         if let Some(row) = axis_row {
@@ -76,6 +82,7 @@ impl<'a> Plots<'a> {
         } else {
             words.push(format!("all {} samples  ", thousands(n)));
         }
+        words.extend(compare::counts(self.model));
         if !note.is_empty() {
             words.push(format!("y {note}  "));
         }
@@ -145,7 +152,7 @@ impl<'a> Plots<'a> {
     }
 }
 
-fn take_bottom(rest: &mut Rect) -> Rect {
+pub(super) fn take_bottom(rest: &mut Rect) -> Rect {
     let height = rest.height.min(1);
     rest.height -= height;
     Rect { y: rest.y + rest.height, height, ..*rest }

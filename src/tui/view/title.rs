@@ -6,9 +6,9 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::super::model::Model;
+use super::super::picture::Picture;
 use super::super::plot::FlagState;
 use super::{clear, fit, thousands};
-use crate::score::Score;
 use crate::track::printable;
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
@@ -55,8 +55,8 @@ fn right_side(model: &Model) -> Line<'static> {
         None => spans.push(Span::styled("computing … ", theme.warning)),
         Some(drawn) => {
             let counts = drawn.outcome.counts;
-            if let Some(truth) = model.track.truth_for(&model.plan().channel).filter(|_| model.size.0 >= 80) {
-                let score = Score::of(&drawn.outcome, &model.series(), truth);
+            let truth = model.track.truth_for(&model.plan().channel).filter(|_| model.size.0 >= 80);
+            if let Some(score) = truth.and_then(|truth| Picture::of(model, model.shown).score(truth)) {
                 let text = format!("missed {} false {}  ", score.missed, score.false_alarms);
                 spans.push(Span::styled(text, theme.dim));
             }

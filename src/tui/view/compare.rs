@@ -1,0 +1,109 @@
+//! A against B, and all methods at once, in words.
+
+use ratatui::text::{Line, Span};
+
+use super::super::model::{Model, Pinned};
+use super::thousands;
+use crate::param::{Settings, Value};
+use crate::plot::Side;
+
+/// How many samples only A, only B and both flag, for the heading of the trace.
+pub(super) fn counts(model: &Model) -> Option<String> {
+    let pinned = model.state().pinned.as_deref()?;
+    let Some(sides) = &pinned.sides else { return Some("A pinned, B without a result  ".to_owned()) };
+    let [a, b, both] = sides.counts().map(thousands);
+    Some(format!("A only {a}, B only {b}, both {both}  "))
+}
+
+/// Who of A and B flags a sample, for the card.
+pub(super) fn who(model: &Model, position: usize) -> Option<&'static str> {
+    let sides = model.state().pinned.as_deref()?.sides.as_ref()?;
+    Some(match sides.side(position)? {
+        Side::OnlyA => "A flags it, B does not",
+        Side::OnlyB => "B flags it, A does not",
+        Side::Both => "A and B flag it",
+    })
+}
+
+/// Rows for the parameter panel: the counts, and what A has otherwise.
+pub(super) fn rows(model: &Model) -> Option<Vec<String>> {
+    let pinned = model.state().pinned.as_deref()?;
+    let mut rows = vec![String::new(), "A is pinned, B goes on; g b back to A".to_owned()];
+    if let Some(sides) = &pinned.sides {
+        let [a, b, both] = sides.counts().map(thousands);
+        rows.push(format!("A only {a}   B only {b}   both {both}"));
+    }
+    rows.extend(differences(model, pinned));
+    Some(rows)
+}
+
+/// The settings of A and B that differ.
+fn differences(model: &Model, pinned: &Pinned) -> Vec<String> {
+    let (a, b) = (&pinned.setup, &model.plan().setup);
+    let row = |name: &str, a: &str, b: &str| format!("{name:14} A {a}  B {b}");
+    let mut rows = Vec::new();
+    let ids = [a, b].map(|setup| setup.method.about().id);
+    if ids[0] != ids[1] {
+        rows.push(row("method", ids[0], ids[1]));
+    }
+    if a.rate != b.rate {
+        let name = |rate: &Option<String>| rate.as_deref().map_or_else(|| "(none)".to_owned(), crate::track::printable);
+        rows.push(row("rate", &name(&a.rate), &name(&b.rate)));
+    }
+    let of = |name: fn(&'static str) -> &'static str, a: &Settings, b: &Settings| {
+        let other = |key: &str| b.get(key);
+        let differs = |(p, x): (&'static crate::param::Param, Value)| {
+            let y = other(p.key).filter(|y| *y != x)?;
+            Some(row(name(p.key), &x.to_string(), &y.to_string()))
+        };
+        a.iter().filter_map(differs).collect::<Vec<_>>()
+    };
+    rows.extend(of(|key| key, &a.settings, &b.settings));
+    rows.extend(of(|key| if key == "method" { "repair" } else { key }, &a.repair, &b.repair));
+    if rows.is_empty() {
+        rows.push("the settings of A and B are the same".to_owned());
+    }
+    rows
+}
+
+/// How many methods flag a sample, and which, for the card.
+pub(super) fn votes(model: &Model, position: usize) -> Option<Line<'static>> {
+    let ballot = &model.state().consensus.as_deref()?.ballot;
+    let (votes, of) = (ballot.votes(position), ballot.methods());
+    let theme = &model.theme;
+    let style = if votes >= ballot.half() { theme.over } else { theme.text };
+    // The shorter list says as much.
+    let names = match (ballot.voters(position), ballot.others(position)) {
+        (voters, _) if voters.is_empty() => String::new(),
+        (_, others) if others.is_empty() => ": all".to_owned(),
+        (voters, others) if voters.len() <= others.len() => format!(": {}", voters.join(", ")),
+        (_, others) => format!(": all but {}", others.join(", ")),
+    };
+    Some(Line::from(vec![
+        Span::styled(format!(" {votes} of {of} methods flag it"), style),
+        Span::styled(names, theme.dim),
+    ]))
+}
+
+/// The heading of the picture of all methods: how far they have been asked, the votes, and those at the cursor.
+pub(super) fn consensus_words(model: &Model) -> Vec<Span<'static>> {
+    let (theme, state) = (&model.theme, model.state());
+    if let Some(polling) = model.polling.as_ref().filter(|p| p.plan == model.shown) {
+        let text = format!("asking the methods: {} of {} have answered (Esc stops)  ", polling.done, polling.of);
+        return vec![Span::styled(text, theme.warning)];
+    }
+    let Some(consensus) = state.consensus.as_deref() else {
+        return vec![Span::styled("nobody has been asked: C twice asks all methods  ", theme.warning)];
+    };
+    let ballot = &consensus.ballot;
+    let text = format!("how many flag a sample, half is {}  ", ballot.half());
+    let mut words = vec![Span::styled(text, theme.dim)];
+    let (votes, of) = (ballot.votes(state.cursor), ballot.methods());
+    let style = if votes >= ballot.half() { theme.over } else { theme.dim };
+    words.push(Span::styled(format!("here {votes} of {of}  "), style));
+    if !consensus.left_out.is_empty() {
+        let ids: Vec<&str> = consensus.left_out.iter().map(|(id, _)| *id).collect();
+        words.push(Span::styled(format!("without {}  ", ids.join(", ")), theme.dim));
+    }
+    words
+}

@@ -1,0 +1,179 @@
+//! Frames of the pictures below, beside and over the trace: histogram, steps of time, A against B, all methods at once,
+//! a second channel.
+
+#![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
+
+mod workbench;
+
+use insta::assert_snapshot;
+use wildpoint::param::Value;
+use wildpoint::plot::Side;
+use wildpoint::tui::message::Message;
+use wildpoint::tui::update::update;
+
+use workbench::{ASCII_MONO, Bench, UNICODE_DARK, frames};
+
+/// Keeps a frame at both sizes, under `name` and the size.
+fn both(name: &str, keys: &str) {
+    for (label, frame) in frames(keys) {
+        assert_snapshot!(format!("{name}_{label}"), frame);
+    }
+}
+
+#[test]
+fn histogram_below_the_trace() {
+    both("histogram", "R");
+}
+
+#[test]
+fn steps_of_time_below_the_trace() {
+    both("steps", "R R");
+}
+
+#[test]
+fn residual_with_its_logarithm_over_sample_numbers() {
+    both("by_number", "L X n z -");
+}
+
+#[test]
+fn a_range_that_stays_and_chosen_layers() {
+    both("fixed_range", ":y Space -50 Space 150 Enter :layers Space raw Space band Enter");
+}
+
+#[test]
+fn pictures_in_ascii() {
+    for (name, keys) in [("histogram", "R"), ("steps", "R R")] {
+        let bench = Bench::on("demo.csv", ASCII_MONO).keys(keys);
+        assert_snapshot!(format!("ascii_{name}"), bench.frame());
+        assert!(bench.frame().is_ascii());
+    }
+}
+
+#[test]
+fn x_keeps_the_samples_in_view_when_it_becomes_the_number_and_back() {
+    let time = Bench::on("demo.csv", UNICODE_DARK).keys("n n z");
+    let (view, samples) = (time.0.state().view, time.0.in_view());
+    let number = time.keys("X");
+    assert_eq!(number.0.in_view(), samples);
+    // All rows of the record have a value: the number of a sample is its row.
+    assert!((number.0.state().view.from - samples.start as f64).abs() < 1.0);
+    let back = number.keys("X");
+    assert_eq!(back.0.in_view(), samples);
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-9 * b.abs();
+    assert!(near(back.0.state().view.from, view.from) && near(back.0.state().view.to, view.to));
+}
+
+#[test]
+fn a_against_b() {
+    both("a_against_b", "B :set Space k Space 12 Enter g d z");
+}
+
+#[test]
+fn a_against_another_method_in_ascii() {
+    let bench = Bench::on("demo.csv", ASCII_MONO).size((120, 40)).keys("B :method Space hampel Enter g d");
+    assert_snapshot!("ascii_a_against_b", bench.frame());
+    assert!(bench.frame().is_ascii());
+}
+
+#[test]
+fn all_methods_at_once() {
+    both("consensus", "C g h");
+}
+
+#[test]
+fn a_second_channel_on_a_wide_screen() {
+    let bench = Bench::on("demo.csv", UNICODE_DARK).size((200, 60)).keys("d d n n n");
+    assert_snapshot!("second_channel_200x60", bench.frame());
+    let zoomed = bench.keys("z X C");
+    assert_snapshot!("second_channel_by_number_200x60", zoomed.frame());
+    let alone = zoomed.keys("V none Enter");
+    assert!(!alone.frame().contains("V another"), "{}", alone.frame());
+}
+
+/// The counts of only A, only B and both, of the channel on the screen.
+fn sides(bench: &Bench) -> [usize; 3] {
+    bench.0.state().pinned.as_ref().unwrap().sides.as_ref().unwrap().counts()
+}
+
+/// Positions that the method flags now.
+fn flagged(bench: &Bench) -> Vec<u32> {
+    let drawn = bench.0.state().drawn.as_ref().unwrap();
+    let verdicts = drawn.outcome.detection.judged.verdict.iter();
+    (0..).zip(verdicts).filter(|(_, v)| **v == wildpoint::method::Verdict::Outlier).map(|(i, _)| i).collect()
+}
+
+#[test]
+fn what_only_a_flags_is_counted_walked_and_taken_back_as_one_edit() {
+    let bench = Bench::on("demo.csv", UNICODE_DARK).size((120, 40));
+    let a = flagged(&bench);
+    let bench = bench.keys("B");
+    assert_eq!(sides(&bench), [0, 0, a.len()], "B is A until something changes");
+    let bench = bench.keys(". . . . . . . . . . . . . . . . . . . . . . . . . . . . . . . . . . . . . . . .");
+    let b = flagged(&bench);
+    let only_a: Vec<u32> = a.iter().copied().filter(|p| !b.contains(p)).collect();
+    assert!(!only_a.is_empty() && b.iter().all(|p| a.contains(p)), "a larger k flags less");
+    assert_eq!(sides(&bench), [only_a.len(), 0, b.len()]);
+    // Every difference is walked once, then it starts again.
+    let mut bench = bench.keys("g g");
+    let mut walked = Vec::new();
+    for _ in 0..only_a.len() {
+        bench = bench.keys("g d");
+        walked.push(u32::try_from(bench.0.state().cursor).unwrap());
+        assert!(bench.frame().contains("A flags it, B does not"), "{}", bench.frame());
+    }
+    assert_eq!(walked, only_a);
+    let bench = bench.keys("g d");
+    assert!(bench.frame().contains("from the start again"), "{}", bench.frame());
+    assert_eq!(bench.0.state().cursor, only_a[0] as usize);
+    // Back to A, and one undo leads to B again, though A differs from B in a knob that was stepped just before.
+    let k = |bench: &Bench| bench.0.plan().setup.settings.get("k");
+    let (k_b, bench) = (k(&bench), bench.keys("g b"));
+    assert_eq!((k(&bench), flagged(&bench)), (Some(Value::Real(4.0)), a.clone()));
+    assert!(bench.0.state().pinned.is_none());
+    let bench = bench.keys("u");
+    assert_eq!(k(&bench), k_b);
+    assert_eq!(flagged(&bench), b);
+}
+
+#[test]
+fn what_only_b_flags_is_marked_and_a_result_that_is_not_there_compares_with_nothing() {
+    let bench = Bench::on("demo.csv", UNICODE_DARK).keys(":set Space k Space 12 Enter B :set Space k Space 4 Enter");
+    let [only_a, only_b, _] = sides(&bench);
+    assert!(only_a == 0 && only_b > 0);
+    let bench = bench.keys("g d z");
+    let side = bench.0.state().pinned.as_ref().unwrap().sides.as_ref().unwrap().side(bench.0.state().cursor);
+    assert_eq!(side, Some(Side::OnlyB));
+    let frame = bench.frame();
+    assert!(frame.contains("B flags it, A does not") && frame.contains("A/B "), "{frame}");
+    let gone = bench.keys(":method Space matched Enter Esc");
+    assert!(gone.0.state().pinned.as_ref().unwrap().sides.is_none());
+    assert!(gone.keys("g d").frame().contains("B has no result"));
+    let bench = Bench::on("demo.csv", UNICODE_DARK).keys("B B");
+    assert!(bench.0.state().pinned.is_none() && bench.frame().contains("no longer pinned"));
+}
+
+#[test]
+fn all_methods_are_asked_once_and_again_when_the_question_changes() {
+    let mut bench = Bench::on("demo.csv", UNICODE_DARK).keys("C");
+    let consensus = bench.0.state().consensus.clone().unwrap();
+    // `matched` needs a rate channel and has none.
+    assert_eq!(consensus.ballot.methods(), wildpoint::method::METHODS.len() - 1);
+    assert_eq!(consensus.left_out.iter().map(|(id, _)| *id).collect::<Vec<_>>(), ["matched"]);
+    assert!(bench.frame().contains("left out: matched"), "{}", bench.frame());
+    // Row 61 is 100 m/s off: most methods say so, the one of the session among them.
+    assert!(
+        consensus.ballot.voters(60).contains(&"two-sided") && consensus.ballot.votes(60) >= consensus.ballot.half()
+    );
+    // A late answer to another question is not taken.
+    let late = Box::new(wildpoint::tui::consensus::Consensus { agreed: vec![], ..(*consensus).clone() });
+    update(&mut bench.0, Message::Polled { generation: 6, plan: 0, consensus: late });
+    assert!(std::sync::Arc::ptr_eq(bench.0.state().consensus.as_ref().unwrap(), &consensus));
+    // A knob does not change what the others say; the paper's values do.
+    let bench = bench.keys(". .");
+    assert!(std::sync::Arc::ptr_eq(bench.0.state().consensus.as_ref().unwrap(), &consensus));
+    let bench = bench.keys("i");
+    assert_eq!(bench.0.state().consensus.as_ref().unwrap().question.preset, wildpoint::session::Preset::Paper);
+    let bench = bench.keys("g h");
+    let (state, agreed) = (bench.0.state(), &bench.0.state().consensus.as_ref().unwrap().agreed);
+    assert!(agreed.contains(&u32::try_from(state.cursor).unwrap()));
+}

@@ -1,0 +1,117 @@
+//! A workbench whose results are there at once, driven by keys.
+
+#![expect(unreachable_pub, reason = "it is shared by test programs")]
+
+use std::path::PathBuf;
+
+use ratatui::buffer::Buffer;
+use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use ratatui::layout::Rect;
+use wildpoint::session::{Session, Setup};
+use wildpoint::stop::Stop;
+use wildpoint::track::{LoadOptions, Source, load};
+use wildpoint::tui::consensus::Poll;
+use wildpoint::tui::message::{Effect, Message};
+use wildpoint::tui::model::Model;
+use wildpoint::tui::office::Judge;
+use wildpoint::tui::plot::Glyphs;
+use wildpoint::tui::theme::{ColorDepth, Theme};
+use wildpoint::tui::update::update;
+use wildpoint::tui::{Look, Opening, text_of, view};
+
+pub const UNICODE_DARK: (Glyphs, ColorDepth) = (Glyphs::Unicode, ColorDepth::Indexed256);
+pub const ASCII_MONO: (Glyphs, ColorDepth) = (Glyphs::Ascii, ColorDepth::Never);
+
+/// A workbench whose results are there at once.
+pub struct Bench(pub Model);
+
+impl Bench {
+    /// On a record of `data/`, in a window of 80x24.
+    pub fn on(name: &str, (glyphs, depth): (Glyphs, ColorDepth)) -> Self {
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("data").join(name);
+        let options = LoadOptions::default();
+        let track = load(&Source::File(path), &options).unwrap();
+        let session = Session::new(&track, options, &Setup::standard());
+        let opening = Opening { track, session, file: None, notes: Vec::new() };
+        let model = opening.model(Look { theme: Theme::choose(depth, false), glyphs });
+        let mut bench = Self(model);
+        bench.judge(0);
+        bench
+    }
+
+    pub fn judge(&mut self, plan: usize) {
+        let result = Judge::new(&self.0, plan).run(&Stop::never()).map(Box::new);
+        self.0.awaited = Some(0);
+        for effect in update(&mut self.0, Message::Analysed { generation: 0, plan, result }) {
+            // Advice comes when nothing else is to do: not in a still frame.
+            if let Effect::Poll(plan) = effect {
+                self.poll(plan);
+            }
+        }
+    }
+
+    /// Asks all methods.
+    fn poll(&mut self, plan: usize) {
+        let poll = Poll::new(&self.0, plan);
+        self.0.polling = Some(poll.started(7));
+        let consensus = Box::new(poll.run(&Stop::never(), |_| {}).unwrap());
+        update(&mut self.0, Message::Polled { generation: 7, plan, consensus });
+    }
+
+    pub fn size(mut self, (width, height): (u16, u16)) -> Self {
+        update(&mut self.0, Message::Resize(width, height));
+        self
+    }
+
+    /// Presses keys: names stand between blanks, everything else is typed letter by letter.
+    pub fn keys(mut self, keys: &str) -> Self {
+        for name in keys.split(' ') {
+            let named = match name {
+                "Enter" => Some(KeyCode::Enter),
+                "Esc" => Some(KeyCode::Esc),
+                "Down" => Some(KeyCode::Down),
+                "Tab" => Some(KeyCode::Tab),
+                "Space" => Some(KeyCode::Char(' ')),
+                _ => None,
+            };
+            match named {
+                Some(code) => self.press(code),
+                None => name.chars().for_each(|c| self.press(KeyCode::Char(c))),
+            }
+        }
+        self
+    }
+
+    fn press(&mut self, code: KeyCode) {
+        let effects = update(&mut self.0, Message::Key(KeyEvent::new(code, KeyModifiers::NONE)));
+        for effect in effects {
+            match effect {
+                Effect::Analyse(plan) => self.judge(plan),
+                Effect::Poll(plan) => self.poll(plan),
+                Effect::CancelPoll => {}
+                other => panic!("{other:?} is nothing for a still frame"),
+            }
+        }
+    }
+
+    pub fn buffer(&self) -> Buffer {
+        let (width, height) = self.0.size;
+        let area = Rect { x: 0, y: 0, width, height };
+        let mut buffer = Buffer::empty(area);
+        view::draw(&self.0, area, &mut buffer);
+        buffer
+    }
+
+    pub fn frame(&self) -> String {
+        text_of(&self.buffer())
+    }
+}
+
+/// The frames at both sizes after some keys, each with the name of its size.
+pub fn frames(keys: &str) -> [(&'static str, String); 2] {
+    [("80x24", (80, 24)), ("120x40", (120, 40))].map(|(label, size)| {
+        let bench = Bench::on("demo.csv", UNICODE_DARK).size(size);
+        let bench = if keys.is_empty() { bench } else { bench.keys(keys) };
+        (label, bench.frame())
+    })
+}
