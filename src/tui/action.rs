@@ -88,6 +88,57 @@ pub enum Action {
     ClearView,
 }
 
+impl Action {
+    /// Its name in the palette and in the configuration, from that of the variant: `next-flag`, `panel-trace`.
+    #[must_use]
+    pub fn name(self) -> String {
+        let mut name = String::new();
+        for c in format!("{self:?}").chars() {
+            match c {
+                '(' | ')' => {}
+                c if c.is_uppercase() => {
+                    name.push_str(if name.is_empty() { "" } else { "-" });
+                    name.extend(c.to_lowercase());
+                }
+                c => name.push(c),
+            }
+        }
+        name
+    }
+
+    /// True when it can change a result, write a file or end the program: it is bound to no key that a torn escape
+    /// sequence can press.
+    #[must_use]
+    pub fn changes_result(self) -> bool {
+        use Action as A;
+        matches!(
+            self,
+            A::Undo
+                | A::StepUp
+                | A::StepDown
+                | A::StepUpFar
+                | A::StepDownFar
+                | A::DefaultValue
+                | A::Preset
+                | A::Suggested
+                | A::Accept
+                | A::Reject
+                | A::Toggle
+                | A::Clear
+                | A::ByHand
+                | A::AcceptView
+                | A::AdoptPinned
+                | A::RejectView
+                | A::ClearView
+                | A::Epoch
+                | A::SettingsToAll
+                | A::Save
+                | A::Export
+                | A::Quit
+        )
+    }
+}
+
 /// A part of the screen that can have the focus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Panel {
@@ -123,5 +174,16 @@ impl Panel {
     #[must_use]
     pub fn digit(self) -> usize {
         Self::ALL.iter().position(|p| *p == self).unwrap_or(0) + 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_words_with_hyphens() {
+        let names = [Action::NextFlag, Action::YFit, Action::Undo, Action::Panel(Panel::Trace)].map(Action::name);
+        assert_eq!(names, ["next-flag", "y-fit", "undo", "panel-trace"]);
     }
 }

@@ -1,4 +1,5 @@
-//! The key map: one table from which the dispatcher, the help, the footer and the README are made.
+//! The key map: one table from which the dispatcher, the palette, the help, the footer and the README are made.
+//! What holds is [`Keys`]: the table with what the user's configuration puts in its place.
 //!
 //! Characters that can leak from an escape sequence torn apart on a slow line
 //! (`[ O < ; ? ~ 0-9 A B C D F H I M P Q R S Z m`) are bound to actions that change no result; a test holds the
@@ -6,9 +7,13 @@
 
 use std::fmt::Write as _;
 
-use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-
 use super::action::{Action, Panel};
+
+mod in_force;
+mod name;
+
+pub use in_force::{Bound, Keys, Meaning};
+pub use name::{parsed, shown};
 
 /// Where a binding holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,6 +44,29 @@ impl Context {
             Self::Parameters => "parameters (3)",
             Self::Queue => "queue (4)",
         }
+    }
+
+    /// The context that belongs to a panel with the keyboard, whose rows go first; none for panels without keys of
+    /// their own.
+    #[must_use]
+    pub fn of(panel: Panel) -> Option<Self> {
+        match panel {
+            Panel::Parameters => Some(Self::Parameters),
+            Panel::Queue => Some(Self::Queue),
+            Panel::Trace | Panel::Residual | Panel::Card => None,
+        }
+    }
+
+    /// True for the context of one panel, false for those that hold wherever the panel says nothing else.
+    #[must_use]
+    pub fn is_own(self) -> bool {
+        Panel::ALL.into_iter().any(|panel| Self::of(panel) == Some(self))
+    }
+
+    /// Its word in the configuration: the first of its heading.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        self.heading().split(' ').next().unwrap_or_default()
     }
 }
 
@@ -165,88 +193,13 @@ pub static KEYMAP: &[Binding] = {
     ]
 };
 
-/// What a key means.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Meaning {
-    /// An action.
-    Action(Action),
-    /// The first key of several: wait for the next.
-    Prefix(char),
-    /// Nothing.
-    Nothing,
-}
+/// Characters that can leak from an escape sequence torn apart on a slow line.
+const TORN: &str = "[O<;?~0123456789ABCDFHIMPQRSZm";
 
-/// The meaning of a key after `prefix`, with the focus on `panel`. The panel's own rows go first.
+/// True for a key that such a sequence can press: it must change no result.
 #[must_use]
-pub fn meaning(key: KeyEvent, prefix: Option<char>, panel: Panel) -> Meaning {
-    let Some(name) = name_of(key) else { return Meaning::Nothing };
-    let name = prefix.map_or(name.clone(), |p| format!("{p} {name}"));
-    let own = match panel {
-        Panel::Parameters => Some(Context::Parameters),
-        Panel::Queue => Some(Context::Queue),
-        Panel::Trace | Panel::Residual | Panel::Card => None,
-    };
-    let holds = |b: &&Binding| Some(b.context) == own || !matches!(b.context, Context::Parameters | Context::Queue);
-    let matching: Vec<&Binding> = KEYMAP.iter().filter(holds).filter(|b| b.keys.contains(&name.as_str())).collect();
-    if let Some(binding) = matching.iter().find(|b| Some(b.context) == own).or(matching.first()) {
-        return Meaning::Action(binding.action);
-    }
-    let starts = |b: &Binding| b.keys.iter().any(|k| k.starts_with(&format!("{name} ")));
-    match name.chars().next() {
-        Some(first) if prefix.is_none() && KEYMAP.iter().any(starts) => Meaning::Prefix(first),
-        _ => Meaning::Nothing,
-    }
-}
-
-/// The name of a key as the table writes it.
-fn name_of(key: KeyEvent) -> Option<String> {
-    let shift = key.modifiers.contains(KeyModifiers::SHIFT);
-    let name = match key.code {
-        KeyCode::Char(' ') => "space".into(),
-        // The character already says whether Shift was down.
-        KeyCode::Char(c) if key.modifiers.contains(KeyModifiers::CONTROL) => format!("ctrl-{}", c.to_ascii_lowercase()),
-        KeyCode::Char(c) if key.modifiers.contains(KeyModifiers::ALT) => format!("alt-{c}"),
-        KeyCode::Char(c) => c.to_string(),
-        KeyCode::Left if shift => "shift-left".into(),
-        KeyCode::Right if shift => "shift-right".into(),
-        KeyCode::Left => "left".into(),
-        KeyCode::Right => "right".into(),
-        KeyCode::Up => "up".into(),
-        KeyCode::Down => "down".into(),
-        KeyCode::Home => "home".into(),
-        KeyCode::End => "end".into(),
-        KeyCode::PageUp => "pageup".into(),
-        KeyCode::PageDown => "pagedown".into(),
-        KeyCode::Enter => "enter".into(),
-        KeyCode::Backspace => "backspace".into(),
-        KeyCode::Esc => "esc".into(),
-        KeyCode::Tab => "tab".into(),
-        KeyCode::BackTab => "backtab".into(),
-        _ => return None,
-    };
-    Some(name)
-}
-
-/// A key as people write it: `Ctrl-S`, `Space`, `←`.
-#[must_use]
-pub fn shown(key: &str) -> String {
-    let one = |k: &str| match k {
-        "left" => "←".to_owned(),
-        "right" => "→".to_owned(),
-        "up" => "↑".to_owned(),
-        "down" => "↓".to_owned(),
-        "pageup" => "PgUp".to_owned(),
-        "pagedown" => "PgDn".to_owned(),
-        "backtab" => "Shift-Tab".to_owned(),
-        "shift-left" => "Shift-←".to_owned(),
-        "shift-right" => "Shift-→".to_owned(),
-        "space" | "enter" | "backspace" | "esc" | "tab" | "home" | "end" => {
-            let (first, rest) = k.split_at(1);
-            first.to_uppercase() + rest
-        }
-        k => k.strip_prefix("ctrl-").map_or_else(|| k.to_owned(), |c| format!("Ctrl-{}", c.to_uppercase())),
-    };
-    key.split(' ').map(one).collect::<Vec<_>>().join("")
+pub fn hazardous(key: &str) -> bool {
+    key.chars().count() == 1 && key.chars().all(|c| TORN.contains(c))
 }
 
 /// The key table of the README.
@@ -266,16 +219,11 @@ pub fn markdown() -> String {
 mod tests {
     use super::*;
 
-    fn plain(c: char) -> KeyEvent {
-        KeyEvent::new(KeyCode::Char(c), KeyModifiers::NONE)
-    }
-
     #[test]
     fn no_key_means_two_things_in_one_context() {
         for (i, a) in KEYMAP.iter().enumerate() {
             for b in &KEYMAP[i + 1..] {
-                let own = |c| matches!(c, Context::Parameters | Context::Queue);
-                if a.context == b.context || (!own(a.context) && !own(b.context)) {
+                if a.context == b.context || (!a.context.is_own() && !b.context.is_own()) {
                     assert!(a.keys.iter().all(|k| !b.keys.contains(k)), "{:?} and {:?} share a key", a.keys, b.keys);
                 }
             }
@@ -283,51 +231,27 @@ mod tests {
     }
 
     #[test]
-    fn characters_of_torn_escape_sequences_change_no_result() {
-        let changes = |a: Action| {
-            use Action as A;
-            matches!(
-                a,
-                A::Undo
-                    | A::StepUp
-                    | A::StepDown
-                    | A::StepUpFar
-                    | A::StepDownFar
-                    | A::DefaultValue
-                    | A::Preset
-                    | A::Suggested
-                    | A::Accept
-                    | A::Reject
-                    | A::Toggle
-                    | A::Clear
-                    | A::ByHand
-                    | A::AcceptView
-                    | A::AdoptPinned
-                    | A::RejectView
-                    | A::ClearView
-                    | A::Epoch
-                    | A::SettingsToAll
-                    | A::Save
-                    | A::Export
-                    | A::Quit
-            )
-        };
-        for c in "[O<;?~0123456789ABCDFHIMPQRSZm".chars() {
-            for panel in Panel::ALL {
-                if let Meaning::Action(action) = meaning(plain(c), None, panel) {
-                    assert!(!changes(action), "{c} does {action:?}");
-                }
-            }
+    fn every_key_of_the_table_is_written_as_the_configuration_would_have_it() {
+        for key in KEYMAP.iter().flat_map(|b| b.keys) {
+            assert_eq!(parsed(key).as_deref(), Ok(*key));
         }
     }
 
     #[test]
-    fn panels_use_arrows_for_themselves_and_g_waits() {
-        let left = KeyEvent::new(KeyCode::Left, KeyModifiers::NONE);
-        assert_eq!(meaning(left, None, Panel::Trace), Meaning::Action(Action::PanLeft));
-        assert_eq!(meaning(left, None, Panel::Parameters), Meaning::Action(Action::StepDown));
-        assert_eq!(meaning(plain('g'), None, Panel::Trace), Meaning::Prefix('g'));
-        assert_eq!(meaning(plain('a'), Some('g'), Panel::Trace), Meaning::Action(Action::AcceptView));
-        assert_eq!(meaning(plain('q'), Some('g'), Panel::Trace), Meaning::Nothing);
+    fn an_action_has_one_row_in_a_context() {
+        for (i, a) in KEYMAP.iter().enumerate() {
+            assert!(KEYMAP[i + 1..].iter().all(|b| (a.context, a.action) != (b.context, b.action)), "{:?}", a.action);
+        }
+    }
+
+    #[test]
+    fn characters_of_torn_escape_sequences_change_no_result() {
+        for binding in KEYMAP {
+            for key in binding.keys {
+                assert!(!hazardous(key) || !binding.action.changes_result(), "{key} does {:?}", binding.action);
+            }
+        }
+        // The rule can fail.
+        assert!(hazardous("C") && !hazardous("ctrl-c") && !hazardous("g C") && Action::Accept.changes_result());
     }
 }

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::action::Panel;
 use super::advice::Advice;
 use super::consensus::Polling;
+use super::keys::Keys;
 use super::plot::{Axis, Glyphs};
 use super::theme::Theme;
 use crate::param::Param;
@@ -61,6 +62,8 @@ pub struct Model {
     pub theme: Theme,
     /// Glyphs.
     pub glyphs: Glyphs,
+    /// The key map in force.
+    pub keys: Keys,
     /// The job whose result is awaited.
     pub awaited: Option<u64>,
     /// How the flags are reviewed.
@@ -134,6 +137,7 @@ impl Model {
             size: (80, 24),
             theme,
             glyphs,
+            keys: Keys::default(),
             awaited: None,
             review: Reviewing::default(),
             lower: Lower::default(),

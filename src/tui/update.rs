@@ -2,7 +2,7 @@
 //! and no clock here.
 
 use super::action::{Action, Panel};
-use super::keys::{Meaning, meaning};
+use super::keys::Meaning;
 use super::message::{Effect, Message, Written};
 use super::model::{Knob, Model, Overlay, Picker, PickerKind, Prompt, PromptKind, Tone};
 use crate::error::Error;
@@ -47,7 +47,7 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
                 return overlay::key(model, key);
             }
             let prefix = model.prefix.take();
-            match meaning(key, prefix, model.focus) {
+            match model.keys.meaning(key, prefix, model.focus) {
                 Meaning::Action(action) => act(model, action),
                 Meaning::Prefix(first) => {
                     model.prefix = Some(first);

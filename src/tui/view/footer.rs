@@ -5,8 +5,8 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
-use super::super::action::Panel;
-use super::super::keys::{Binding, Context, KEYMAP, shown};
+use super::super::action::Action;
+use super::super::keys::{Bound, Context, shown};
 use super::super::model::{Model, Overlay, Prompt, PromptKind};
 use super::clear;
 
@@ -14,13 +14,10 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     clear(area, buffer);
     let theme = &model.theme;
     let mut left: Vec<(String, &str)> = Vec::new();
-    if model.prefix.is_some() {
-        left.extend(
-            KEYMAP
-                .iter()
-                .flat_map(|b| b.keys.iter().map(move |k| (k, b)))
-                .filter_map(|(k, b)| k.strip_prefix("g ").map(|rest| (format!("g{rest}"), in_few_words(b.help)))),
-        );
+    if let Some(first) = model.prefix {
+        let keys = model.keys.rows().iter().flat_map(|b| b.keys.iter().map(move |k| (k, b)));
+        let after = |k: &str| k.strip_prefix(first)?.strip_prefix(' ').map(|rest| format!("{first}{}", shown(rest)));
+        left.extend(keys.filter_map(|(k, b)| after(k).map(|key| (key, in_few_words(b.row.help)))));
     } else {
         left.extend(items(model));
     }
@@ -28,7 +25,10 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     let right = match model.overlay {
         // After a first key, these would be its second.
         Overlay::None if model.prefix.is_some() => Vec::new(),
-        Overlay::None => vec![(":".to_owned(), ""), ("?".to_owned(), "help"), ("q".to_owned(), "quit")],
+        Overlay::None => [(Action::Command, ""), (Action::Help, "help"), (Action::Quit, "quit")]
+            .into_iter()
+            .filter_map(|(action, word)| model.keys.key_of(action).map(|key| (key, word)))
+            .collect(),
         _ => Vec::new(),
     };
     let width = |(key, word): &(String, &str)| key.chars().count() + word.chars().count() + 3;
@@ -62,24 +62,9 @@ fn items(model: &Model) -> Vec<(String, &'static str)> {
     if let Some(items) = overlay_items(&model.overlay) {
         return items;
     }
-    let own = match model.focus {
-        Panel::Parameters => Some(Context::Parameters),
-        Panel::Queue => Some(Context::Queue),
-        Panel::Trace | Panel::Residual | Panel::Card => None,
-    };
-    let of = |context: Context| KEYMAP.iter().filter(move |b| b.context == context && !b.short.is_empty());
-    let item = |b: &'static Binding| {
-        let key = match b.short {
-            // Pairs that belong together are shown together.
-            "next" if b.context == Context::Queue => "↑↓".to_owned(),
-            "choose" => "↑↓".to_owned(),
-            "step" if b.context == Context::Parameters => "←→".to_owned(),
-            "step" => ", .".to_owned(),
-            "zoom" => "+ -".to_owned(),
-            _ => shown(b.keys[0]),
-        };
-        (key, b.short)
-    };
+    let own = Context::of(model.focus);
+    let of = |context: Context| model.keys.of(context).filter(|b| !b.row.short.is_empty() && !b.keys.is_empty());
+    let item = |b: &Bound| (together(model, b), b.row.short);
     let mut items: Vec<(String, &'static str)> = own.into_iter().flat_map(of).map(item).collect();
     if own != Some(Context::Queue) || !items.is_empty() {
         let more = [Context::Review, Context::Everywhere, Context::View].into_iter().flat_map(of).map(item);
@@ -92,6 +77,31 @@ fn items(model: &Model) -> Vec<(String, &'static str)> {
         new
     });
     items
+}
+
+/// The key of a row; pairs that belong together are shown together.
+fn together(model: &Model, bound: &Bound) -> String {
+    let key = bound.keys.first().map(|k| shown(k)).unwrap_or_default();
+    let other = match bound.row.action {
+        Action::NextInQueue => Action::PreviousInQueue,
+        Action::NextKnob => Action::PreviousKnob,
+        Action::StepDown => Action::StepUp,
+        Action::StepUp => Action::StepDown,
+        Action::ZoomIn => Action::ZoomOut,
+        _ => return key,
+    };
+    let other = model.keys.of(bound.row.context).find(|b| b.row.action == other).and_then(|b| b.keys.first());
+    match other.map(|k| shown(k)) {
+        Some(other) if "←→↑↓".contains(&key) && "←→↑↓".contains(&other) => {
+            if "→↓".contains(&key) {
+                format!("{other}{key}")
+            } else {
+                format!("{key}{other}")
+            }
+        }
+        Some(other) => format!("{key} {other}"),
+        None => key,
+    }
 }
 
 fn overlay_items(overlay: &Overlay) -> Option<Vec<(String, &'static str)>> {

@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Widget};
 use tui_input::Input;
 
-use super::super::keys::{Context, KEYMAP, shown};
+use super::super::keys::Context;
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
 use super::super::plot::{FlagState, Glyphs};
 use super::super::update::{COMMANDS, narrowed, note, value_text};
@@ -111,9 +111,8 @@ fn help_lines(model: &Model, filter: &str) -> Vec<Line<'static>> {
         }
     };
     for context in Context::ALL {
-        let of = KEYMAP.iter().filter(|b| b.context == context);
-        let keys = |b: &super::super::keys::Binding| b.keys.iter().map(|k| shown(k)).collect::<Vec<_>>().join(" ");
-        group(context.heading(), of.map(|b| (keys(b), b.help.to_owned())).collect());
+        let of = model.keys.of(context).filter(|b| !b.keys.is_empty());
+        group(context.heading(), of.map(|b| (b.shown(), b.row.help.to_owned())).collect());
     }
     let command =
         |c: &super::super::update::Command| (format!(":{} {}", c.name.replace('|', " :"), c.takes), c.help.to_owned());
