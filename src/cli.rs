@@ -13,7 +13,9 @@ use crate::track::{Delimiter, LoadOptions};
 mod experiments;
 
 pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
+mod screen;
 mod tools;
+pub use screen::{Color, ConfigArgs, Glyphs};
 pub use tools::{CompareArgs, FormatArg, JudgeArgs, StreamArgs, SweepArgs};
 
 /// Find, review and repair wild points of tracking records.
@@ -25,7 +27,7 @@ pub use tools::{CompareArgs, FormatArg, JudgeArgs, StreamArgs, SweepArgs};
 pub struct Cli {
     /// What to do without a screen.
     #[command(subcommand)]
-    pub command: Option<Command>,
+    pub command: Option<Task>,
     /// A record (CSV and relatives), or a session (.toml).
     pub file: Option<PathBuf>,
     /// Size of the still frame that is printed where there is no terminal: WIDTHxHEIGHT.
@@ -40,6 +42,12 @@ pub struct Cli {
     /// Colours for a light background.
     #[arg(long)]
     pub light: bool,
+    /// Leave the mouse to the terminal, which then selects text with it (M changes it).
+    #[arg(long)]
+    pub no_mouse: bool,
+    /// Which configuration to take.
+    #[command(flatten)]
+    pub config: ConfigArgs,
     /// Keep no journal: what is not saved is lost when the workbench is killed.
     #[arg(long)]
     pub no_journal: bool,
@@ -48,34 +56,15 @@ pub struct Cli {
     pub shared: Shared,
 }
 
-/// Colours of the screen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Color {
-    /// What the terminal says it can; none with `NO_COLOR`.
-    Auto,
-    /// None: bold, reverse and underline only.
-    Never,
-    /// The 16 colours of the terminal.
-    #[value(name = "16")]
-    Sixteen,
-    /// 256 colours.
-    #[value(name = "256")]
-    Indexed,
-    /// 24-bit colours.
-    True,
-}
-
-/// Glyphs of the screen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Glyphs {
-    /// Unicode where the locale is UTF-8.
-    Auto,
-    /// Braille, blocks and markers.
-    Unicode,
-    /// Braille only: for terminals in which other symbols are two cells wide.
-    Braille,
-    /// Plain ASCII.
-    Ascii,
+/// Everything that is named by a word.
+#[expect(clippy::large_enum_variant, reason = "there is one, and it is taken apart at once")]
+#[derive(Debug, Subcommand)]
+pub enum Task {
+    /// What needs no screen.
+    #[command(flatten)]
+    Batch(Command),
+    /// Print the keys of the workbench that are in force, as a configuration.
+    Keys(ConfigArgs),
 }
 
 /// The commands that need no screen.

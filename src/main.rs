@@ -6,12 +6,13 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use wildpoint::batch::{self, Ending};
-use wildpoint::cli::{Cli, Color, Glyphs as GlyphChoice};
+use wildpoint::cli::{Cli, Color, ConfigArgs, Glyphs as GlyphChoice, Task};
 use wildpoint::error::{Error, Result};
 use wildpoint::report::Summary;
 use wildpoint::session::{Analysed, Session, open_all};
 use wildpoint::stop::Stop;
 use wildpoint::track::{Source, load};
+use wildpoint::tui::config::{self, Config};
 use wildpoint::tui::journal::folder;
 use wildpoint::tui::plot::Glyphs;
 use wildpoint::tui::theme::{ColorDepth, Theme};
@@ -21,7 +22,12 @@ fn main() -> ExitCode {
     let mut cli = Cli::parse();
     let stdout = std::io::stdout();
     let ended = match cli.command.take() {
-        Some(command) => {
+        Some(Task::Keys(args)) => configured(&args).and_then(|config| {
+            let listing = config::listing(&config.keys);
+            let written = stdout.lock().write_all(listing.as_bytes()).map(|()| Ending::Done);
+            written.map_err(Error::io("write", "standard output"))
+        }),
+        Some(Task::Batch(command)) => {
             let mut out = std::io::BufWriter::new(stdout.lock());
             let ended = batch::run(command, &mut out);
             let flushed = out.flush().map_err(Error::io("write", "standard output"));
@@ -52,12 +58,15 @@ fn main() -> ExitCode {
 /// Opens the workbench, or prints one frame of it where there is no terminal.
 fn workbench(cli: &Cli) -> Result<Ended> {
     batch::set_threads(cli.shared.threads)?;
+    let mut config = configured(&cli.config)?;
+    config.screen.mouse &= !cli.no_mouse;
     let opening = opening(cli)?;
     let stdout = std::io::stdout();
     let dumb = std::env::var("TERM").is_ok_and(|t| t == "dumb");
     if stdout.is_terminal() && !dumb {
         let journal = if cli.no_journal { None } else { folder() };
-        return run(opening, Look { theme: theme(cli), glyphs: glyphs(cli) }, journal);
+        let look = Look { theme: theme(cli, &config), glyphs: glyphs(cli, &config) };
+        return run(opening, look, config, journal);
     }
     let analysed = {
         let mut first = opening.session.clone();
@@ -65,7 +74,7 @@ fn workbench(cli: &Cli) -> Result<Ended> {
         let analysed = Analysed::of(&first, &opening.track, &Stop::never())?;
         Summary::of(&opening.track, &first, &analysed).text()
     };
-    let frame = still(opening, Look { theme: Theme::mono(), glyphs: glyphs(cli) }, cli.size)?;
+    let frame = still(opening, Look { theme: Theme::mono(), glyphs: glyphs(cli, &config) }, cli.size)?;
     let mut out = stdout.lock();
     writeln!(out, "{frame}\n{analysed}").map_err(Error::io("write", "standard output"))?;
     Ok(Ended::default())
@@ -90,46 +99,51 @@ fn opening(cli: &Cli) -> Result<Opening> {
     Ok(Opening { track, session, file: None, notes: Vec::new() })
 }
 
+/// The configuration that the command line asks for.
+fn configured(args: &ConfigArgs) -> Result<Config> {
+    if args.no_config { Ok(Config::default()) } else { Config::find(args.config.as_deref()) }
+}
+
 /// Sessions are told from records by their name.
 fn is_session(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }
 
-fn theme(cli: &Cli) -> Theme {
+/// What the command line says holds; then the environment's NO_COLOR, the configuration, and what the terminal says.
+fn theme(cli: &Cli, config: &Config) -> Theme {
     let variable = |name: &str| std::env::var(name).unwrap_or_default();
     let depth = match cli.color {
         Color::Never => ColorDepth::Never,
         Color::Sixteen => ColorDepth::Ansi16,
         Color::Indexed => ColorDepth::Indexed256,
         Color::True => ColorDepth::True,
-        Color::Auto => {
+        Color::Auto if !variable("NO_COLOR").is_empty() => ColorDepth::Never,
+        Color::Auto => config.screen.color.unwrap_or_else(|| {
             let term = variable("TERM");
-            if !variable("NO_COLOR").is_empty() {
-                ColorDepth::Never
-            } else if matches!(variable("COLORTERM").as_str(), "truecolor" | "24bit") {
+            if matches!(variable("COLORTERM").as_str(), "truecolor" | "24bit") {
                 ColorDepth::True
             } else if term.contains("256") || term.starts_with("xterm") {
                 ColorDepth::Indexed256
             } else {
                 ColorDepth::Ansi16
             }
-        }
+        }),
     };
-    Theme::choose(depth, cli.light)
+    config.paints.theme(depth, cli.light)
 }
 
-fn glyphs(cli: &Cli) -> Glyphs {
+fn glyphs(cli: &Cli, config: &Config) -> Glyphs {
     match cli.glyphs {
         GlyphChoice::Unicode => Glyphs::Unicode,
         GlyphChoice::Braille => Glyphs::Braille,
         GlyphChoice::Ascii => Glyphs::Ascii,
-        GlyphChoice::Auto => {
+        GlyphChoice::Auto => config.screen.glyphs.unwrap_or_else(|| {
             let locale =
                 ["LC_ALL", "LC_CTYPE", "LANG"].iter().find_map(|n| std::env::var(n).ok().filter(|v| !v.is_empty()));
             // A console without a locale is most often a bare container: its terminal is what the user sits at.
             let utf8 = locale.is_none_or(|l| l.to_lowercase().replace('-', "").contains("utf8"));
             let console = std::env::var("TERM").is_ok_and(|t| t == "linux");
             if utf8 && !console { Glyphs::Unicode } else { Glyphs::Ascii }
-        }
+        }),
     }
 }

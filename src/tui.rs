@@ -5,7 +5,6 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender, select, unbounded};
 use ratatui::buffer::Buffer;
@@ -18,12 +17,14 @@ use crate::session::Session;
 use crate::stop::Stop;
 use crate::track::Track;
 use advice::Advise;
+use config::Config;
 use consensus::{Poll, Polling};
-use input::{ESC_TIMEOUT_MS, Normaliser};
+use input::Normaliser;
 use journal::Journal;
 use message::{Effect, Message, Written};
 use model::{Model, Tone};
 use office::{Errand, Judge};
+use pace::Pace;
 use plot::Glyphs;
 pub use signals::Ended;
 use signals::{HANG_UP, Signalled};
@@ -32,7 +33,12 @@ use theme::Theme;
 
 pub mod action;
 pub mod advice;
+mod clipboard;
+pub mod config;
 pub mod consensus;
+mod find;
+mod fuzzy;
+mod hit;
 mod input;
 pub mod journal;
 pub mod keys;
@@ -40,6 +46,7 @@ pub mod layout;
 pub mod message;
 pub mod model;
 pub mod office;
+mod pace;
 pub mod picture;
 pub mod plot;
 mod signals;
@@ -121,20 +128,24 @@ pub fn text_of(buffer: &Buffer) -> String {
     text
 }
 
-/// Runs the workbench until the user leaves it, or a signal ends it; keeps a journal in the folder `journal`.
+/// Runs the workbench until the user leaves it, or a signal ends it; keeps a journal in the folder `journal`. Of
+/// `config`, glyphs and colours are in `look` already.
 ///
 /// # Errors
 /// When the terminal cannot be used.
-pub fn run(opening: Opening, look: Look, journal: Option<PathBuf>) -> Result<Ended> {
+pub fn run(opening: Opening, look: Look, config: Config, journal: Option<PathBuf>) -> Result<Ended> {
     let mut model = opening.model(look);
+    model.keys = config.keys;
+    (model.mouse, model.review.auto_advance) = (config.screen.mouse, config.screen.auto_advance);
     let (sender, messages) = unbounded();
     let (worker, advisor) = (office::judge(sender.clone()), advice::advise(sender.clone()));
     let poller = consensus::poll(sender.clone());
     let signals = signals::listen()?;
     let journal = Journal::start(journal, &mut model, sender.clone());
     let mut outside = Outside { worker, advisor, poller, sender, journal };
-    let mut screen = Screen::take()?;
-    let left = work(&mut model, &mut outside, &mut screen, &messages, &signals);
+    let mut screen = Screen::take(model.mouse)?;
+    let pace = Pace::new(&config.screen);
+    let left = work(&mut model, &mut outside, &mut screen, pace, &messages, &signals);
     let left = match left {
         Err(e) if signals::is_gone(&e) => Ok(Left::Signalled(HANG_UP)),
         other => other,
@@ -160,6 +171,7 @@ fn work(
     model: &mut Model,
     outside: &mut Outside,
     screen: &mut Screen,
+    mut pace: Pace,
     messages: &Receiver<Message>,
     signals: &Receiver<Signalled>,
 ) -> Result<Left> {
@@ -185,9 +197,11 @@ fn work(
                     Signalled::Resumed => screen.forget()?,
                 }
             },
-            default(if normaliser.waits() { Duration::from_millis(ESC_TIMEOUT_MS) } else { Duration::from_secs(3600) }) => {
-                match normaliser.flush() {
+            default(pace.patience(normaliser.waits())) => {
+                let key = if pace.frame_is_due() { None } else { normaliser.flush() };
+                match key {
                     Some(key) => inbox.push(Message::Key(key)),
+                    None if pace.frame_is_due() => {}
                     None => continue,
                 }
             },
@@ -205,7 +219,7 @@ fn work(
             }
         }
         outside.journal.catch_up();
-        if !still {
+        if pace.draws(!still) {
             screen.draw(model)?;
         }
     }
@@ -216,6 +230,7 @@ fn take_event(event: Event, normaliser: &mut Normaliser, inbox: &mut Vec<Message
         Event::Key(key) if key.kind != KeyEventKind::Release => {
             inbox.extend(normaliser.feed(key).into_iter().map(Message::Key));
         }
+        Event::Mouse(event) => inbox.push(Message::Mouse(event)),
         Event::Paste(text) => inbox.push(Message::Paste(text)),
         Event::Resize(width, height) => inbox.push(Message::Resize(width, height)),
         _ => {}
@@ -292,6 +307,8 @@ impl Outside {
                     self.write(model, Errand { what: Written::Cleaned, path, overwrite });
                 }
                 Effect::Offered { path, fate } => self.journal.settle(model, &path, fate),
+                Effect::Copy(text) => screen.copy(&text)?,
+                Effect::Mouse(on) => screen.mouse(on)?,
                 Effect::Redraw => screen.forget()?,
                 Effect::Suspend => screen.suspend()?,
                 Effect::Quit => return Ok(Next::Leave),

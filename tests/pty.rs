@@ -3,8 +3,12 @@
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
 
+#[path = "pty/command_line.rs"]
+mod command_line;
 #[path = "pty/journal.rs"]
 mod journal;
+#[path = "pty/mouse.rs"]
+mod mouse;
 #[path = "pty/pictures.rs"]
 mod pictures;
 mod program;
@@ -30,12 +34,17 @@ fn flagged(terminal: &Terminal) -> usize {
     title.split(" flagged").next().and_then(|left| left.rsplit(' ').next()).unwrap().parse().unwrap()
 }
 
-/// The alternate screen is left, the cursor shown and bracketed paste off, all after they were the other way round.
+/// The alternate screen is left, the cursor shown, bracketed paste and the mouse off, all after they were the other way round.
 fn assert_restored(raw: &[u8]) {
     let text = String::from_utf8_lossy(raw);
-    for (taken, given_back) in
-        [("\x1b[?1049h", "\x1b[?1049l"), ("\x1b[?25l", "\x1b[?25h"), ("\x1b[?2004h", "\x1b[?2004l")]
-    {
+    for (taken, given_back) in [
+        ("\x1b[?1049h", "\x1b[?1049l"),
+        ("\x1b[?25l", "\x1b[?25h"),
+        ("\x1b[?2004h", "\x1b[?2004l"),
+        ("\x1b[?1000h", "\x1b[?1000l"),
+        ("\x1b[?1002h", "\x1b[?1002l"),
+        ("\x1b[?1006h", "\x1b[?1006l"),
+    ] {
         let (from, to) = (text.rfind(taken), text.rfind(given_back));
         assert!(from.is_some() && from < to, "{given_back:?} does not follow {taken:?}");
     }

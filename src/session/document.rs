@@ -14,7 +14,7 @@ pub use write::render;
 const FORMAT: i64 = 1;
 
 /// The words for delimiters.
-const DELIMITERS: [(&str, Delimiter); 5] = [
+pub(in crate::session) const DELIMITERS: [(&str, Delimiter); 5] = [
     ("comma", Delimiter::Byte(b',')),
     ("semicolon", Delimiter::Byte(b';')),
     ("tab", Delimiter::Byte(b'\t')),

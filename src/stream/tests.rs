@@ -5,7 +5,7 @@ use std::rc::Rc;
 use clap::Parser;
 
 use super::*;
-use crate::cli::{Cli, Command};
+use crate::cli::{Cli, Command, Task};
 use crate::experiment::Random;
 use crate::method::{self, Judged, judge_channel, noise};
 use crate::param::Settings;
@@ -16,7 +16,7 @@ mod same;
 fn args(line: &str) -> StreamArgs {
     let words = ["wildpoint", "stream"].into_iter().chain(line.split_whitespace());
     match Cli::try_parse_from(words).unwrap().command {
-        Some(Command::Stream(args)) => args,
+        Some(Task::Batch(Command::Stream(args))) => args,
         other => panic!("{other:?}"),
     }
 }

@@ -6,6 +6,9 @@ use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 /// How long after an `Esc` the rest of a sequence may come, in milliseconds.
 pub(super) const ESC_TIMEOUT_MS: u64 = 30;
 
+/// No sequence is as long as this: a report of the mouse has three numbers of at most five digits.
+const LONGEST: usize = 21;
+
 /// Puts torn sequences together.
 #[derive(Debug, Default)]
 pub(super) struct Normaliser {
@@ -43,8 +46,10 @@ impl Normaliser {
             return vec![escape(), key];
         }
         tail.push(c);
-        let goes_on = tail.len() == 1 || (tail.starts_with('[') && (c.is_ascii_digit() || c == ';'));
-        if goes_on && tail.len() < 12 {
+        // `[<` begins a report of the mouse, which ends in `M` or `m`: half of one is dropped, no key of it is typed.
+        let report = tail.len() == 2 && c == '<';
+        let goes_on = tail.len() == 1 || (tail.starts_with('[') && (c.is_ascii_digit() || c == ';' || report));
+        if goes_on && tail.len() < LONGEST {
             self.pending = Some(tail);
             return Vec::new();
         }
@@ -132,6 +137,9 @@ mod tests {
         assert_eq!(typed("\x1b\x1b[B"), [KeyCode::Esc, KeyCode::Down]);
         assert_eq!(typed("\x1b[99~x"), [KeyCode::Char('x')]);
         assert_eq!(typed("\x1b[1;"), []);
+        // A report of the mouse that was torn presses no key: not 0, M or m.
+        assert_eq!(typed("\x1b[<0;120;40Mx"), [KeyCode::Char('x')]);
+        assert_eq!(typed("\x1b[<65;7;3m"), []);
     }
 
     #[test]

@@ -171,6 +171,38 @@ pub fn queue_rows(area: Rect) -> usize {
     usize::from(if body >= 6 { body - 1 } else { body })
 }
 
+/// The parts of the trace's area.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TraceParts {
+    /// The heading.
+    pub head: Rect,
+    /// Labels and curve.
+    pub body: Rect,
+    /// The rail.
+    pub rail: Rect,
+    /// The samples on which the pinned result differs, where there is one and room for it.
+    pub sides: Option<Rect>,
+    /// Labels of the time axis, where there is room for them.
+    pub axis: Option<Rect>,
+}
+
+/// Divides the area of the trace; `pinned` when there is a pinned result to compare with.
+#[must_use]
+pub fn trace_parts(area: Rect, pinned: bool) -> TraceParts {
+    let mut body = area;
+    let head = top(&mut body, 1);
+    let axis = (body.height >= 5).then(|| bottom(&mut body, 1));
+    let sides = (pinned && body.height >= 6).then(|| bottom(&mut body, 1));
+    let rail = bottom(&mut body, 1);
+    TraceParts { head, body, rail, sides, axis }
+}
+
+/// The inside of a panel that is a drawer over the plots, beside its edge.
+#[must_use]
+pub fn drawer(area: Rect) -> Rect {
+    Rect { x: area.x + area.width.min(2), width: area.width.saturating_sub(2), ..area }
+}
+
 /// Columns of cells on which the trace draws samples.
 #[must_use]
 pub fn plot_columns(model: &Model) -> u16 {

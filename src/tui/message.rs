@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use ratatui::crossterm::event::KeyEvent;
+use ratatui::crossterm::event::{KeyEvent, MouseEvent};
 
 use super::advice::Advice;
 use super::consensus::Consensus;
@@ -14,6 +14,8 @@ use crate::plot::Drawn;
 pub enum Message {
     /// A key was pressed.
     Key(KeyEvent),
+    /// The mouse did something.
+    Mouse(MouseEvent),
     /// Text was pasted.
     Paste(String),
     /// The screen has another size.
@@ -129,6 +131,10 @@ pub enum Effect {
         /// What becomes of it.
         fate: Fate,
     },
+    /// Put a text on the clipboard of the terminal.
+    Copy(String),
+    /// Take the mouse, or give it to the terminal.
+    Mouse(bool),
     /// Draw everything again, whatever the terminal shows.
     Redraw,
     /// Hand the terminal back to the shell until it lets the program go on.

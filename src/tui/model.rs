@@ -9,7 +9,7 @@ use super::action::Panel;
 use super::advice::Advice;
 use super::consensus::Polling;
 use super::keys::Keys;
-use super::plot::{Axis, Glyphs};
+use super::plot::{Axis, Glyphs, View};
 use super::theme::Theme;
 use crate::param::Param;
 use crate::repair;
@@ -64,6 +64,14 @@ pub struct Model {
     pub glyphs: Glyphs,
     /// The key map in force.
     pub keys: Keys,
+    /// Whether the mouse is the program's; otherwise the terminal selects text with it.
+    pub mouse: bool,
+    /// The cell of the trace in which a button went down, until it comes up.
+    pub pressed: Option<(u16, u16)>,
+    /// The lines that were run in the palette, the last one last.
+    pub lines: Vec<String>,
+    /// The last jump, to be repeated.
+    pub jumped: Option<String>,
     /// The job whose result is awaited.
     pub awaited: Option<u64>,
     /// How the flags are reviewed.
@@ -138,6 +146,10 @@ impl Model {
             theme,
             glyphs,
             keys: Keys::default(),
+            mouse: false,
+            pressed: None,
+            lines: Vec::new(),
+            jumped: None,
             awaited: None,
             review: Reviewing::default(),
             lower: Lower::default(),
@@ -201,6 +213,38 @@ impl Model {
             Second::Next | Second::Plan(_) => next,
         };
         (plan != self.shown).then_some(plan)
+    }
+
+    /// The part of the x axis that holds the whole record.
+    #[must_use]
+    pub fn whole(&self) -> View {
+        View::whole(self.axis(&self.series()))
+    }
+
+    /// The sample of the channel on the screen that is nearest to a place on the x axis.
+    #[must_use]
+    pub fn nearest_x(&self, x: f64) -> Option<usize> {
+        if !self.by_number {
+            return self.nearest(x);
+        }
+        let last = self.series().len().checked_sub(1)?;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cast from float saturates")]
+        let position = x.round() as usize;
+        Some(position.min(last))
+    }
+
+    /// The sample of the channel on the screen that is nearest to a time, the earlier of two; none when there is none.
+    #[must_use]
+    pub fn nearest(&self, t: f64) -> Option<usize> {
+        let series = self.series();
+        let after = series.before(t);
+        let before = after.saturating_sub(1);
+        match (series.t.get(before), series.t.get(after)) {
+            (Some(x), Some(y)) if (x - t).abs() <= (y - t).abs() => Some(before),
+            (_, Some(_)) => Some(after),
+            (Some(_), None) => Some(before),
+            (None, None) => None,
+        }
     }
 
     /// True when the document has changed since it was saved.

@@ -137,6 +137,26 @@ impl<'a> Picture<'a> {
         })
     }
 
+    /// The sample that a cell of the trace points at: the nearest flag at most `near` columns away, else the sample
+    /// that is drawn nearest to the cell.
+    pub(super) fn pointed(&self, size: (u16, u16), (column, row): (u16, u16), near: u16) -> Option<usize> {
+        let columns = self.trace(size);
+        let (first, last) = (column.saturating_sub(near), column.saturating_add(near).min(size.0.saturating_sub(1)));
+        let mut cells: Vec<(u16, u16)> = (first..=last).flat_map(|c| (0..size.1).map(move |r| (c, r))).collect();
+        // A cell is about twice as high as it is wide.
+        cells.sort_by_key(|(c, r)| c.abs_diff(column) + 2 * r.abs_diff(row));
+        let flags = if self.state.after { &self.no_flags } else { &self.state.flags };
+        let flag = cells.into_iter().find_map(|(c, r)| columns.flag_at(flags, c, r));
+        let (layers, after) = (self.state.layers, self.state.after);
+        flag.or_else(|| self.with_trace(layers, after, |trace| columns.sample_at(trace, column, row)))
+            .or_else(|| columns.position_at(self.axis(), column))
+    }
+
+    /// The first flag in a column of the rail, the most urgent state first.
+    pub(super) fn first_flag(&self, size: (u16, u16), column: u16) -> Option<usize> {
+        self.trace(size).flag_in(&self.state.flags, column)
+    }
+
     /// Calls `draw` with the trace that these layers make.
     fn with_trace<R>(&self, layers: Layers, after: bool, draw: impl FnOnce(&Trace<'_>) -> R) -> R {
         let y = &self.series.y;

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
 use ratatui::crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
-use ratatui::crossterm::style::force_color_output;
+use ratatui::crossterm::style::{Print, force_color_output};
 use ratatui::crossterm::terminal::{
     BeginSynchronizedUpdate, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode,
     enable_raw_mode,
@@ -15,6 +15,7 @@ use ratatui::crossterm::terminal::{
 use ratatui::crossterm::{cursor, execute, queue};
 use ratatui::layout::Rect;
 
+use super::clipboard;
 use super::model::Model;
 use super::view::view;
 use crate::error::{Error, Result};
@@ -25,13 +26,22 @@ const BUFFER: usize = 64 << 10;
 /// True while the terminal is ours.
 static TAKEN: AtomicBool = AtomicBool::new(false);
 
+/// True while the mouse is ours, or will be when the terminal is taken again.
+static MOUSE: AtomicBool = AtomicBool::new(false);
+
+/// Presses, releases, the wheel, and movement while a button is down, in the form without a limit of 223 columns.
+/// Not mode 1003: over a slow line every movement of the hand would cost bytes.
+const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
+const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
+
 /// The screen of the workbench. It gives the terminal back itself: what is inside is never dropped, since its own
 /// `Drop` complains on standard error when it cannot show the cursor, which panics where the whole terminal is gone.
 pub(super) struct Screen(ManuallyDrop<Terminal<CrosstermBackend<BufWriter<Stdout>>>>);
 
 impl Screen {
-    /// Takes the terminal over.
-    pub(super) fn take() -> Result<Self> {
+    /// Takes the terminal over, and with `mouse` the mouse.
+    pub(super) fn take(mouse: bool) -> Result<Self> {
+        MOUSE.store(mouse, Ordering::SeqCst);
         // Colours are ours to choose: crossterm's own handling of NO_COLOR also cancels reverse and bold.
         force_color_output(true);
         give_back_on_panic();
@@ -59,6 +69,22 @@ impl Screen {
         self.0.resize(Rect { x: 0, y: 0, width, height }).map_err(failed)
     }
 
+    /// Takes the mouse, or gives it to the terminal.
+    pub(super) fn mouse(&mut self, on: bool) -> Result<()> {
+        MOUSE.store(on, Ordering::SeqCst);
+        self.say(if on { MOUSE_ON } else { MOUSE_OFF })
+    }
+
+    /// Puts a text on the clipboard of the terminal.
+    pub(super) fn copy(&mut self, text: &str) -> Result<()> {
+        self.say(&clipboard::sequence(text, std::env::var_os("TMUX").is_some()))
+    }
+
+    fn say(&mut self, sequence: &str) -> Result<()> {
+        let terminal = self.0.backend_mut();
+        terminal.write_all(sequence.as_bytes()).and_then(|()| std::io::Write::flush(terminal)).map_err(failed)
+    }
+
     /// Gives the terminal back until the shell lets the program go on.
     pub(super) fn suspend(&mut self) -> Result<()> {
         leave();
@@ -82,7 +108,8 @@ fn failed(source: std::io::Error) -> Error {
 fn enter() -> Result<()> {
     enable_raw_mode().map_err(failed)?;
     TAKEN.store(true, Ordering::SeqCst);
-    execute!(std::io::stdout(), EnterAlternateScreen, EnableBracketedPaste, cursor::Hide).map_err(failed)
+    let mouse = Print(if MOUSE.load(Ordering::SeqCst) { MOUSE_ON } else { "" });
+    execute!(std::io::stdout(), EnterAlternateScreen, EnableBracketedPaste, mouse, cursor::Hide).map_err(failed)
 }
 
 /// Gives the terminal back, once.
@@ -92,6 +119,7 @@ pub(super) fn leave() {
         let _ = execute!(
             std::io::stdout(),
             EndSynchronizedUpdate,
+            Print(if MOUSE.load(Ordering::SeqCst) { MOUSE_OFF } else { "" }),
             DisableBracketedPaste,
             LeaveAlternateScreen,
             cursor::Show

@@ -9,6 +9,10 @@ use ratatui::style::{Color, Modifier, Style};
 
 use super::plot::FlagState;
 
+mod paint;
+
+pub use paint::{Base, Paints, ROLES, Role};
+
 /// How many colours the terminal shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColorDepth {
@@ -221,5 +225,32 @@ fn color(depth: ColorDepth, hue: Hue) -> Color {
         ColorDepth::Ansi16 => hue.named,
         ColorDepth::Indexed256 => Color::Indexed(hue.index),
         ColorDepth::True => Color::Rgb(hue.rgb.0, hue.rgb.1, hue.rgb.2),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DEPTHS: [ColorDepth; 4] = [ColorDepth::Never, ColorDepth::Ansi16, ColorDepth::Indexed256, ColorDepth::True];
+
+    fn all_differ(styles: &[Style]) -> bool {
+        styles.iter().enumerate().all(|(i, a)| styles[i + 1..].iter().all(|b| a != b))
+    }
+
+    #[test]
+    fn states_and_tones_differ_in_every_depth_and_by_attributes_where_there_are_no_colours() {
+        for depth in DEPTHS {
+            for light in [false, true] {
+                let theme = Theme::choose(depth, light);
+                assert!(all_differ(&FlagState::ALL.map(|state| theme.flag(state))), "{depth:?}");
+                assert!(all_differ(&[theme.ok, theme.warning, theme.error]), "{depth:?}");
+                assert!(all_differ(&[theme.text, theme.dim, theme.focus]), "{depth:?}");
+                let cursor = theme.cursor.add_modifier;
+                assert!(cursor.contains(Modifier::REVERSED), "the cursor is told without a colour");
+            }
+        }
+        let mono = format!("{:?}", Theme::mono());
+        assert!(!mono.contains(".fg(") && !mono.contains(".bg("), "{mono}");
     }
 }

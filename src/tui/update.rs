@@ -9,6 +9,7 @@ use crate::error::Error;
 
 mod channels;
 mod command;
+mod command_line;
 mod compare;
 mod consensus;
 pub(super) mod decide;
@@ -16,9 +17,12 @@ pub(super) mod describe;
 mod files;
 mod history;
 mod journal;
+mod jump;
+mod mouse;
 mod navigate;
 pub(super) mod note;
 mod overlay;
+mod palette;
 mod pictures;
 pub(super) mod queue;
 mod recover;
@@ -28,7 +32,9 @@ mod tune;
 pub use command::{COMMANDS, Command};
 pub use files::{default_export, default_session};
 use history::{commit, set_up};
+pub use jump::FORMS;
 pub use overlay::{Entry, narrowed};
+pub use palette::{Suggestion, chosen, suggestions};
 pub(super) use pictures::layer_names;
 pub(super) use review::mark_at;
 pub(super) use tune::value_text;
@@ -56,6 +62,7 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
                 Meaning::Nothing => Vec::new(),
             }
         }
+        Message::Mouse(event) => mouse::act(model, event),
         Message::Paste(text) => overlay::paste(model, &text),
         Message::Resize(width, height) => {
             model.size = (width, height);
@@ -94,6 +101,19 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Help => open(model, Overlay::Help(tui_input::Input::default(), 0)),
         Action::Command => prompt(model, PromptKind::Command, ""),
         Action::Jump => prompt(model, PromptKind::Jump, ""),
+        Action::JumpAgain => {
+            if let Err(why) = jump::jump(model, "") {
+                model.say(Tone::Warning, why);
+            }
+            Vec::new()
+        }
+        Action::CommandLine => command_line::show(model, None),
+        Action::Mouse => {
+            model.mouse = !model.mouse;
+            let words = if model.mouse { "the mouse points and zooms here" } else { "the mouse selects text" };
+            model.say(Tone::Done, format!("{words} · M the other way"));
+            vec![Effect::Mouse(model.mouse)]
+        }
         Action::Methods => picker(model, PickerKind::Method),
         Action::Repairs => picker(model, PickerKind::Repair),
         Action::Channels => picker(model, PickerKind::Channel),
@@ -253,7 +273,7 @@ fn open(model: &mut Model, overlay: Overlay) -> Vec<Effect> {
 }
 
 pub(super) fn prompt(model: &mut Model, kind: PromptKind, text: &str) -> Vec<Effect> {
-    open(model, Overlay::Prompt(Prompt { kind, input: text.into(), error: None }))
+    open(model, Overlay::Prompt(Prompt::new(kind, text)))
 }
 
 pub(super) fn picker(model: &mut Model, kind: PickerKind) -> Vec<Effect> {

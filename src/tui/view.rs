@@ -14,10 +14,12 @@ use super::model::{Model, Overlay, Tone};
 mod card;
 mod compare;
 mod footer;
+mod help;
 mod journal;
 mod lower;
 mod overlay;
-mod parameters;
+mod palette;
+pub(super) mod parameters;
 mod plain;
 mod plots;
 mod queue;
@@ -86,7 +88,7 @@ fn drawer(model: &Model, area: Rect, buffer: &mut Buffer) -> Rect {
     for y in area.top()..area.bottom() {
         buffer[(area.x, y)].set_char(edge).set_style(reset(model.theme.focus));
     }
-    Rect { x: area.x + 2, width: area.width.saturating_sub(2), ..area }
+    layout::drawer(area)
 }
 
 fn too_small(model: &Model, area: Rect, buffer: &mut Buffer) {

@@ -55,6 +55,8 @@ impl Terminal {
         ["NO_COLOR", "COLORTERM", "LC_ALL", "LC_CTYPE"].into_iter().for_each(|name| command.env_remove(name));
         let state = TempDir::new().unwrap();
         command.env("XDG_STATE_HOME", state.path());
+        // Nor does the configuration of whoever runs tests change them.
+        command.env("XDG_CONFIG_HOME", state.path());
         for (name, value) in [("TERM", "xterm-256color"), ("LANG", "C.UTF-8")].iter().chain(environment) {
             command.env(name, value);
         }
@@ -135,6 +137,20 @@ impl Terminal {
         }
     }
 
+    /// Waits until the program has stopped itself, as after Ctrl-Z.
+    #[cfg(target_os = "linux")]
+    pub(crate) fn wait_stopped(&self) {
+        let path = format!("/proc/{}/stat", self.child.process_id().unwrap());
+        let deadline = Instant::now() + PATIENCE;
+        // `PID (NAME) STATE ...`
+        while !std::fs::read_to_string(&path).unwrap().contains(") T ") {
+            assert!(Instant::now() < deadline, "the program goes on");
+            std::thread::yield_now();
+        }
+        // What it wrote before may still be on its way.
+        self.wait("the end of the screen", |seen| seen.raw.ends_with(b"\x1b[?25h").then_some(()));
+    }
+
     /// Makes the window another size.
     pub(crate) fn resize(&mut self, size: (u16, u16)) {
         let (rows, cols) = screen_size(size);
@@ -163,6 +179,11 @@ impl Terminal {
     /// How many bytes have come.
     pub(crate) fn bytes(&self) -> usize {
         self.seen.0.lock().unwrap().raw.len()
+    }
+
+    /// What has come so far.
+    pub(crate) fn raw(&self) -> Vec<u8> {
+        self.seen.0.lock().unwrap().raw.clone()
     }
 
     /// Looks at the screen as it is.

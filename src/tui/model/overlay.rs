@@ -16,6 +16,8 @@ pub enum Overlay {
     Picker(Picker),
     /// A line to type in.
     Prompt(Prompt),
+    /// The command line that does the same without a screen, and what to know about it.
+    CommandLine(String, &'static str),
     /// Quit although something is not saved?
     ConfirmQuit,
     /// What was done, at the moment after so many edits.
@@ -59,6 +61,18 @@ pub struct Prompt {
     pub input: Input,
     /// What is wrong with it.
     pub error: Option<String>,
+    /// The line of the list that was walked to.
+    pub choice: Option<usize>,
+    /// The earlier line that was recalled, by its index.
+    pub recalled: Option<usize>,
+}
+
+impl Prompt {
+    /// A line that begins with `text`.
+    #[must_use]
+    pub fn new(kind: PromptKind, text: &str) -> Self {
+        Self { kind, input: text.into(), error: None, choice: None, recalled: None }
+    }
 }
 
 /// What a prompt is for.

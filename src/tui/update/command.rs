@@ -1,10 +1,10 @@
-//! Commands after `:`, and jumps after `/`.
+//! Commands after `:`.
 
 use std::path::PathBuf;
 
 use super::super::message::Effect;
 use super::super::model::{Model, Tone};
-use super::{Action, act, files, navigate, pictures, review, show, tune};
+use super::{Action, act, command_line, files, jump, pictures, review, show, tune};
 use crate::error::nearest;
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
@@ -53,7 +53,9 @@ pub static COMMANDS: &[Command] = &[
         other => Err(format!("{other}: presets are default and paper")),
     }),
     command("channel", "NAME", "show another channel", channel),
-    command("goto", "TIME|#ROW", "put the cursor on a time or a row", |m, a| jump(m, a).map(|()| Vec::new())),
+    command("goto", "TIME|#ROW|...", "put the cursor on a time or a row, or what / takes", |m, a| {
+        jump::jump(m, a).map(|()| Vec::new())
+    }),
     command("auto-advance", "[on|off]", "whether a decision goes on to the next flag", |m, a| match a {
         "" => Ok(act(m, Action::AutoAdvance)),
         "on" | "off" => {
@@ -64,6 +66,9 @@ pub static COMMANDS: &[Command] = &[
     }),
     command("y", "kept|all|robust|fixed|LOW HIGH", "choose the vertical range", pictures::y_command),
     command("layers", "[+-]NAME ...", "show these layers: raw, expected, band, repaired", pictures::layers_command),
+    command("command-line", "[CLEANED]", "copy the command that does the same without a screen", |m, a| {
+        Ok(command_line::show(m, path(a)))
+    }),
     command("help", "", "keys and commands", |m, _| Ok(act(m, Action::Help))),
 ];
 
@@ -74,15 +79,22 @@ pub(super) fn run(model: &mut Model, line: &str) -> Result<Vec<Effect>, String> 
     if name.is_empty() {
         return Ok(Vec::new());
     }
-    let found = COMMANDS.iter().find(|c| c.name.split('|').any(|n| n == name));
-    match found {
-        Some(command) => (command.run)(model, rest.trim()),
-        None => {
-            let names = COMMANDS.iter().flat_map(|c| c.name.split('|'));
-            let hint = nearest(name, names).map_or("? lists the commands".into(), |n| format!("did you mean {n}?"));
-            Err(format!("{}: no such command; {hint}", printable(name)))
-        }
+    if let Some(command) = find(name) {
+        return (command.run)(model, rest.trim());
     }
+    let actions: Vec<(String, Action)> =
+        model.keys.rows().iter().map(|b| (b.row.action.name(), b.row.action)).collect();
+    if let Some((_, action)) = actions.iter().find(|(known, _)| known == line) {
+        return Ok(act(model, *action));
+    }
+    let names = COMMANDS.iter().flat_map(|c| c.name.split('|')).chain(actions.iter().map(|(name, _)| name.as_str()));
+    let hint = nearest(name, names).map_or("? lists the commands".into(), |n| format!("did you mean {n}?"));
+    Err(format!("{}: no such command; {hint}", printable(name)))
+}
+
+/// The command of this name.
+pub(super) fn find(name: &str) -> Option<&'static Command> {
+    COMMANDS.iter().find(|c| c.name.split('|').any(|n| n == name))
 }
 
 /// The line completed as far as it is clear; none when nothing fits.
@@ -136,40 +148,4 @@ fn channel(model: &mut Model, name: &str) -> Result<Vec<Effect>, String> {
             Err(format!("{}: no such channel; channels: {}", printable(name), printable(&names.join(", "))))
         }
     }
-}
-
-/// Puts the cursor on a row (`#1240`), on a time as the file writes it, or so many seconds on (`+5`, `-60s`).
-pub(super) fn jump(model: &mut Model, text: &str) -> Result<(), String> {
-    let text = text.trim();
-    let series = model.series();
-    let position = if let Some(row) = text.strip_prefix('#') {
-        let row: usize = row.trim().parse().map_err(|_| format!("{}: a row is a whole number", printable(text)))?;
-        let (row, rows) = (row.wrapping_sub(1), model.track.rows);
-        if row >= rows {
-            return Err(format!("#{}: rows go from 1 to {rows}", row.wrapping_add(1)));
-        }
-        let found = series.position(row);
-        found.ok_or_else(|| format!("row {} has no value or no usable time", row + 1))?
-    } else {
-        let here = series.t.get(model.state().cursor).copied().unwrap_or(0.0);
-        let offset = text.strip_prefix('+').map(|s| (1.0, s)).or_else(|| text.strip_prefix('-').map(|s| (-1.0, s)));
-        let relative =
-            offset.and_then(|(sign, s)| s.trim_end_matches('s').trim().parse::<f64>().ok().map(|s| here + sign * s));
-        // `-5` may also be a time of a record that counts down to its start.
-        let absolute = model.track.time.parse(text).filter(|_| !text.starts_with('+') && !text.ends_with('s'));
-        let t = absolute
-            .or(relative)
-            .filter(|t| t.is_finite())
-            .ok_or_else(|| format!("{}: neither a time of this record nor #ROW nor +SECONDS", printable(text)))?;
-        let after = series.before(t);
-        let before = after.saturating_sub(1);
-        let nearer = |a: usize, b: usize| match (series.t.get(a), series.t.get(b)) {
-            (Some(x), Some(y)) if (x - t).abs() <= (y - t).abs() => a,
-            (Some(_), None) => a,
-            _ => b,
-        };
-        nearer(before, after)
-    };
-    navigate::go_to(model, position);
-    Ok(())
 }

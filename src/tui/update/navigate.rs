@@ -23,7 +23,7 @@ pub(super) fn act(model: &mut Model, action: Action) {
         Action::ZoomIn => zoom(model, 0.5),
         Action::ZoomOut => zoom(model, 2.0),
         Action::FitAll => {
-            let whole = whole(model);
+            let whole = model.whole();
             look(model, whole);
         }
         Action::ZoomFlag => zoom_flag(model),
@@ -37,10 +37,6 @@ pub(super) fn act(model: &mut Model, action: Action) {
         Action::Last => go_to(model, usize::MAX),
         _ => {}
     }
-}
-
-fn whole(model: &Model) -> View {
-    View::whole(model.axis(&model.series()))
 }
 
 /// The nominal interval in units of x.
@@ -60,8 +56,15 @@ fn look(model: &mut Model, view: View) {
     }
 }
 
-fn pan(model: &mut Model, share: f64) {
-    let view = model.state().view.panned(share).within(whole(model));
+/// Moves the view so that `x` is in its middle.
+pub(super) fn centre(model: &mut Model, x: f64) {
+    let half = model.state().view.width() / 2.0;
+    let view = View { from: x - half, to: x + half }.within(model.whole());
+    look(model, view);
+}
+
+pub(super) fn pan(model: &mut Model, share: f64) {
+    let view = model.state().view.panned(share).within(model.whole());
     if view == model.state().view {
         model.say(Tone::Warning, "this is the end of the record");
     }
@@ -92,9 +95,13 @@ fn cursor_into_view(model: &mut Model) {
 }
 
 fn zoom(model: &mut Model, factor: f64) {
-    let series = model.series();
-    let at = model.axis(&series).x(model.state().cursor);
-    if at.is_nan() {
+    let at = model.axis(&model.series()).x(model.state().cursor);
+    zoom_at(model, at, factor);
+}
+
+/// Zooms, with what is at `at` kept where it is.
+pub(super) fn zoom_at(model: &mut Model, at: f64, factor: f64) {
+    if model.series().is_empty() || at.is_nan() {
         return;
     }
     let view = model.state().view;
@@ -105,7 +112,7 @@ fn zoom(model: &mut Model, factor: f64) {
         return;
     }
     // The first zoom of a wide view would leave a cursor at the edge at the edge: the sample is what is of interest.
-    let view = view.zoomed(at, factor).within(whole(model));
+    let view = view.zoomed(at, factor).within(model.whole());
     look(model, view);
     cursor_into_view(model);
 }
@@ -126,7 +133,7 @@ fn zoom_flag(model: &mut Model) {
     let to = x(end + AROUND_RUN).min(x(end) + reach);
     let view = View { from, to };
     if view.width() > 0.0 {
-        let view = view.within(whole(model));
+        let view = view.within(model.whole());
         look(model, view);
     }
 }
@@ -139,7 +146,7 @@ pub(super) fn go_to(model: &mut Model, position: usize) {
     let x = model.axis(&series).x(position);
     let view = model.state().view;
     let margin = view.width() / 20.0;
-    let all = whole(model);
+    let all = model.whole();
     let state = model.state_mut();
     state.cursor = position;
     if x < view.from + margin || x > view.to - margin {

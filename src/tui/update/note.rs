@@ -31,7 +31,7 @@ pub(super) fn ask(model: &mut Model) -> Vec<Effect> {
     let text = rows.first().and_then(note).or(waits.map(|w| w.2.clone())).unwrap_or_default();
     let error = rows.is_empty().then(|| "there is no sample to write a note on: Esc leaves".to_owned());
     model.review.noting = rows;
-    model.overlay = Overlay::Prompt(Prompt { kind: PromptKind::Note, input: text.into(), error });
+    model.overlay = Overlay::Prompt(Prompt { error, ..Prompt::new(PromptKind::Note, &text) });
     Vec::new()
 }
 

@@ -5,7 +5,7 @@ use tui_input::{Input, InputRequest};
 
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
-use super::{command, files, journal, note, pictures, recover, set_up, show, tune};
+use super::{files, journal, jump, note, palette, pictures, recover, set_up, show, tune};
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
 use crate::track::printable;
@@ -103,6 +103,8 @@ pub(super) fn key(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
         Overlay::Prompt(prompt) => type_in(model, prompt, key),
         Overlay::ConfirmQuit => confirm(model, key),
         Overlay::Journal(at) => journal::key(model, at, key),
+        // Any key has seen enough of it.
+        Overlay::CommandLine(..) => Vec::new(),
     }
 }
 
@@ -112,12 +114,36 @@ pub(super) fn paste(model: &mut Model, text: &str) -> Vec<Effect> {
         Overlay::Prompt(prompt) => &mut prompt.input,
         Overlay::Picker(picker) => &mut picker.filter,
         Overlay::Help(filter, _) => filter,
-        Overlay::None | Overlay::ConfirmQuit | Overlay::Recover(_) | Overlay::Journal(_) => return Vec::new(),
+        Overlay::None | Overlay::ConfirmQuit | Overlay::Recover(_) | Overlay::Journal(_) | Overlay::CommandLine(..) => {
+            return Vec::new();
+        }
     };
     for c in text.chars().filter(|c| !c.is_control()) {
         input.handle(InputRequest::InsertChar(c));
     }
     Vec::new()
+}
+
+/// The wheel over what lies over the panels: help, lists and the palette move by a line or a few.
+pub(super) fn scroll(model: &mut Model, up: bool) {
+    match std::mem::take(&mut model.overlay) {
+        Overlay::Help(filter, from) => {
+            let from = if up { from.saturating_sub(3) } else { from + 3 };
+            model.overlay = Overlay::Help(filter, from);
+        }
+        Overlay::Picker(mut picker) => {
+            let last = narrowed(model, &picker).len().saturating_sub(1);
+            picker.choice = if up { picker.choice.saturating_sub(1) } else { (picker.choice + 1).min(last) };
+            model.overlay = Overlay::Picker(picker);
+        }
+        Overlay::Prompt(mut prompt) => {
+            if prompt.kind == PromptKind::Command {
+                palette::walk(model, &mut prompt, !up);
+            }
+            model.overlay = Overlay::Prompt(prompt);
+        }
+        other => model.overlay = other,
+    }
 }
 
 fn control(key: KeyEvent) -> bool {
@@ -186,39 +212,43 @@ fn chosen(model: &mut Model, kind: PickerKind, id: String) -> Vec<Effect> {
 }
 
 fn type_in(model: &mut Model, mut prompt: Prompt, key: KeyEvent) -> Vec<Effect> {
-    match key.code {
-        KeyCode::Enter => {
-            let text = prompt.input.value().to_owned();
-            let done = match prompt.kind {
-                PromptKind::Command => command::run(model, &text),
-                PromptKind::Jump => command::jump(model, &text).map(|()| Vec::new()),
-                PromptKind::Value => tune::set_value(model, &text),
-                PromptKind::Note => Ok(note::set(model, &text)),
-            };
-            match done {
-                Ok(effects) => return effects,
-                Err(error) => prompt.error = Some(error.replace("\n  ", "; ")),
-            }
+    let command = prompt.kind == PromptKind::Command;
+    match (key.code, control(key)) {
+        (KeyCode::Enter, _) => match entered(model, &mut prompt) {
+            Ok(Some(effects)) => return effects,
+            Ok(None) => {}
+            Err(error) => prompt.error = Some(error.replace("\n  ", "; ")),
+        },
+        (KeyCode::Tab, _) if command => palette::complete(model, &mut prompt),
+        (KeyCode::Down, _) if command => palette::walk(model, &mut prompt, true),
+        (KeyCode::Up, _) if command => palette::walk(model, &mut prompt, false),
+        (KeyCode::Char('n'), true) if command => palette::recall(model, &mut prompt, true),
+        (KeyCode::Char('p'), true) if command => palette::recall(model, &mut prompt, false),
+        (KeyCode::Tab, _) if prompt.kind == PromptKind::Note => {
+            prompt.input = note::completed(prompt.input.value()).into();
         }
-        KeyCode::Tab if prompt.kind == PromptKind::Command => {
-            if let Some(completed) = command::complete(model, prompt.input.value()) {
-                prompt.input = completed.into();
-            }
-        }
-        KeyCode::Tab if prompt.kind == PromptKind::Note => prompt.input = note::completed(prompt.input.value()).into(),
-        KeyCode::Down | KeyCode::Up if prompt.kind == PromptKind::Note => {
+        (KeyCode::Down | KeyCode::Up, _) if prompt.kind == PromptKind::Note => {
             prompt.input = note::turned(prompt.input.value(), key.code == KeyCode::Down).into();
         }
-        KeyCode::Backspace if prompt.input.value().is_empty() && prompt.kind == PromptKind::Command => {
-            return Vec::new();
-        }
+        (KeyCode::Backspace, _) if command && prompt.input.value().is_empty() => return Vec::new(),
         _ => {
             edit(&mut prompt.input, key);
-            prompt.error = None;
+            (prompt.error, prompt.choice, prompt.recalled) = (None, None, None);
         }
     }
     model.overlay = Overlay::Prompt(prompt);
     Vec::new()
+}
+
+/// What Enter does in a prompt; none when more has to be typed.
+fn entered(model: &mut Model, prompt: &mut Prompt) -> Result<Option<Vec<Effect>>, String> {
+    let text = prompt.input.value().to_owned();
+    match prompt.kind {
+        PromptKind::Command => palette::enter(model, prompt),
+        PromptKind::Jump => jump::jump(model, &text).map(|()| Some(Vec::new())),
+        PromptKind::Value => tune::set_value(model, &text).map(Some),
+        PromptKind::Note => Ok(Some(note::set(model, &text))),
+    }
 }
 
 fn confirm(model: &mut Model, key: KeyEvent) -> Vec<Effect> {

@@ -113,7 +113,11 @@ fn overlay_items(overlay: &Overlay) -> Option<Vec<(String, &'static str)>> {
         Overlay::Prompt(Prompt { kind: PromptKind::Note, .. }) => {
             &[("↑↓", "reason"), ("type", "in your words"), ("Enter", "keep it"), ("Esc", "leave it")]
         }
-        Overlay::Prompt(_) => &[("Enter", "do it"), ("Tab", "complete"), ("Esc", "leave it")],
+        Overlay::Prompt(Prompt { kind: PromptKind::Command, .. }) => {
+            &[("Enter", "do it"), ("↑↓", "choose"), ("Tab", "complete"), ("Esc", "leave it")]
+        }
+        Overlay::Prompt(_) => &[("Enter", "do it"), ("Esc", "leave it")],
+        Overlay::CommandLine(..) => &[("any key", "goes back")],
         Overlay::Recover(found) if found.first().is_some_and(|f| f.missing.is_some()) => {
             &[("d", "drop it"), ("Esc", "decide later")]
         }

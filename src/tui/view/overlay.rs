@@ -7,21 +7,21 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Widget};
 use tui_input::Input;
 
-use super::super::keys::Context;
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
-use super::super::plot::{FlagState, Glyphs};
-use super::super::update::{COMMANDS, narrowed, note, value_text};
+use super::super::plot::Glyphs;
+use super::super::update::{narrowed, note, value_text};
 use super::{clear, fit};
 use crate::track::printable;
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     match &model.overlay {
         Overlay::None => {}
-        Overlay::Help(filter, from) => help(model, filter, *from, area, buffer),
+        Overlay::Help(filter, from) => super::help::draw(model, filter, *from, area, buffer),
         Overlay::Picker(picker) => list(model, picker, area, buffer),
         Overlay::Prompt(prompt) => line(model, prompt, area, buffer),
         Overlay::ConfirmQuit => confirm(model, area, buffer),
         Overlay::Journal(at) => super::journal::draw(model, *at, area, buffer),
+        Overlay::CommandLine(line, about) => command_line(model, line, about, area, buffer),
         Overlay::Recover(found) => super::recover::draw(model, found, area, buffer),
     }
 }
@@ -72,8 +72,10 @@ pub(super) fn rows(model: &Model, lines: Vec<Line<'_>>, from: usize, inside: Rec
 }
 
 /// A line of text with its cursor.
-fn typed(model: &Model, before: &str, input: &Input) -> Line<'static> {
-    let text: String = input.value().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+pub(super) fn typed(model: &Model, before: &str, input: &Input) -> Line<'static> {
+    // One character for one, so that the cursor stays where it is: what would be shown as an escape is a blot.
+    let visible = |c: char| if printable(c.encode_utf8(&mut [0; 4])).chars().eq([c]) { c } else { '\u{fffd}' };
+    let text: String = input.value().chars().map(visible).collect();
     let at = input.cursor();
     let head: String = text.chars().take(at).collect();
     let under = text.chars().nth(at).unwrap_or(' ');
@@ -84,56 +86,6 @@ fn typed(model: &Model, before: &str, input: &Input) -> Line<'static> {
         Span::styled(under.to_string(), Style::new().patch(model.theme.cursor)),
         Span::raw(tail),
     ])
-}
-
-/// The lines of the help that hold what was typed: keys by where they work, then commands.
-fn help_lines(model: &Model, filter: &str) -> Vec<Line<'static>> {
-    let theme = &model.theme;
-    let wanted = filter.to_lowercase();
-    let mut lines = Vec::new();
-    let mut group = |heading: &str, entries: Vec<(String, String)>| {
-        let fits = |(keys, help): &(String, String)| {
-            wanted.is_empty() || format!("{heading} {keys} {help}").to_lowercase().contains(&wanted)
-        };
-        let entries: Vec<_> = entries.into_iter().filter(fits).collect();
-        if entries.is_empty() {
-            return;
-        }
-        if !lines.is_empty() {
-            lines.push(Line::default());
-        }
-        lines.push(Line::styled(heading.to_owned(), theme.title));
-        for (keys, help) in entries {
-            lines.push(Line::from(vec![
-                Span::styled(format!("  {keys:18}"), theme.key),
-                Span::styled(format!(" {help}"), theme.text),
-            ]));
-        }
-    };
-    for context in Context::ALL {
-        let of = model.keys.of(context).filter(|b| !b.keys.is_empty());
-        group(context.heading(), of.map(|b| (b.shown(), b.row.help.to_owned())).collect());
-    }
-    let command =
-        |c: &super::super::update::Command| (format!(":{} {}", c.name.replace('|', " :"), c.takes), c.help.to_owned());
-    let mark = |s: FlagState| (model.glyphs.flag(s).to_string(), super::card::state_word(s).to_owned());
-    let mut marks: Vec<(String, String)> = FlagState::BY_URGENCY.into_iter().map(mark).collect();
-    let beyond = format!("{} {}", model.glyphs.beyond(true, false), model.glyphs.beyond(false, true));
-    marks.push((beyond, "a sample off the scale (y changes the scale)".into()));
-    marks.push(("!".into(), "decisions that the method now contradicts".into()));
-    group("marks", marks);
-    group("commands", COMMANDS.iter().map(command).collect());
-    lines
-}
-
-fn help(model: &Model, filter: &Input, from: usize, area: Rect, buffer: &mut Buffer) {
-    let inside = popup(model, "keys and commands", (78, area.height), area, buffer);
-    let head = Rect { height: inside.height.min(1), ..inside };
-    typed(model, "filter: ", filter).render(head, buffer);
-    let body = Rect { y: inside.y + head.height, height: inside.height - head.height, ..inside };
-    let lines = help_lines(model, filter.value());
-    let last = lines.len().saturating_sub(usize::from(body.height));
-    rows(model, lines, from.min(last), body, buffer);
 }
 
 fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) {
@@ -181,7 +133,7 @@ fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
     }
     let before = match prompt.kind {
         PromptKind::Command => ":".to_owned(),
-        PromptKind::Jump => "to time, #row or +seconds: ".to_owned(),
+        PromptKind::Jump => "/".to_owned(),
         PromptKind::Value => {
             let knob = model.knob();
             format!("{} (now {}): ", knob.name(), value_text(&model.plan().setup, knob))
@@ -189,22 +141,43 @@ fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
         PromptKind::Note => note::subject_words(model),
     };
     let row = Rect { y: area.bottom() - 2, height: 1, ..area };
+    let error = prompt.error.as_ref().map(|error| {
+        let width = usize::from(area.width).saturating_sub(2).max(1);
+        super::parameters::wrapped(&printable(error), width)
+    });
+    let most = usize::from(area.height).saturating_sub(2).min(4);
+    let wrong = error.into_iter().flatten().take(most).collect::<Vec<_>>();
+    let above = row.y - u16::try_from(wrong.len()).unwrap_or(0);
+    super::palette::draw(model, prompt, above, area, buffer);
     clear(row, buffer);
     typed(model, &before, &prompt.input).render(row, buffer);
     if prompt.kind == PromptKind::Note && prompt.error.is_none() {
         super::reasons::draw(model, prompt, row, buffer);
     }
-    if let Some(error) = &prompt.error {
-        let width = usize::from(area.width).saturating_sub(2).max(1);
-        let lines = super::parameters::wrapped(&printable(error), width);
-        let most = usize::from(area.height).saturating_sub(2).min(4);
-        for (up, text) in lines.iter().take(most).rev().enumerate() {
-            let up = u16::try_from(up).unwrap_or(0);
-            let row = Rect { y: area.bottom() - 3 - up, height: 1, ..area };
-            clear(row, buffer);
-            Line::from(Span::styled(format!(" {text}"), model.theme.error)).render(row, buffer);
-        }
+    for (i, text) in wrong.into_iter().enumerate() {
+        let row = Rect { y: above + u16::try_from(i).unwrap_or(0), height: 1, ..area };
+        clear(row, buffer);
+        Line::from(Span::styled(format!(" {text}"), model.theme.error)).render(row, buffer);
     }
+}
+
+/// The command line that does the same without a screen, to be read or copied.
+fn command_line(model: &Model, line: &str, about: &str, area: Rect, buffer: &mut Buffer) {
+    let width = usize::from(area.width.min(100)).saturating_sub(4).max(1);
+    // Cut anywhere: a blank at the end of a row would not be seen, and is part of it.
+    let text: Vec<char> = printable(line).chars().collect();
+    let mut lines: Vec<Line<'_>> =
+        text.chunks(width).map(|chunk| Line::styled(chunk.iter().collect::<String>(), model.theme.title)).collect();
+    lines.push(Line::default());
+    let copied = "Copied to the clipboard, where the terminal lets programs do that; in tmux after \
+                  `set -g set-clipboard on`.";
+    for text in [about, copied] {
+        let rows = super::parameters::wrapped(text, width);
+        lines.extend(rows.into_iter().map(|row| Line::styled(row, model.theme.dim)));
+    }
+    let height = u16::try_from(lines.len() + 2).unwrap_or(u16::MAX);
+    let inside = popup(model, "the same without a screen", (area.width.min(100), height), area, buffer);
+    rows(model, lines, 0, inside, buffer);
 }
 
 fn confirm(model: &Model, area: Rect, buffer: &mut Buffer) {

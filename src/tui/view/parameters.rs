@@ -14,37 +14,57 @@ use crate::param::Value;
 use crate::plot::Drawn;
 use crate::track::printable;
 
+/// The rows of the panel below its heading.
+pub(in crate::tui) struct Rows {
+    /// What stands below the knobs; true for a warning.
+    notes: Vec<(String, bool)>,
+    /// Rows above the notes.
+    room: usize,
+    /// The index of the first knob in sight.
+    pub(in crate::tui) from: usize,
+    /// How many knobs are in sight.
+    pub(in crate::tui) visible: usize,
+}
+
+impl Rows {
+    /// The rows in `body`: counts, help and advice below as many knobs as there is room for, the active one among
+    /// them.
+    pub(in crate::tui) fn of(model: &Model, body: Rect) -> Self {
+        let knobs = model.knobs().len();
+        let active = model.state().knob.min(knobs.saturating_sub(1));
+        let height = usize::from(body.height);
+        let width = usize::from(body.width).saturating_sub(1);
+        // The first block (the counts) always shows; the others where they fit whole, once the knobs have their rows.
+        let least = if model.focus == Panel::Parameters { height * 3 / 5 } else { height * 9 / 20 };
+        let spare = height.saturating_sub(knobs).max(least);
+        let mut notes: Vec<(String, bool)> = Vec::new();
+        for (index, block) in blocks(model, width).into_iter().enumerate() {
+            if index == 0 || notes.len() + block.len() <= spare {
+                notes.extend(block);
+            }
+        }
+        // Facts take what is left, and no knob its row.
+        for fact in model.plan().setup.method.notes(&model.plan().setup.settings) {
+            let block = wrapped(&fact, width);
+            if notes.len() + block.len() + knobs <= height {
+                notes.extend(block.into_iter().map(|line| (line, false)));
+            }
+        }
+        notes.truncate(height.saturating_sub(4));
+        let room = height - notes.len();
+        // Knobs that do not fit scroll; the last row says how many are out of sight.
+        let visible = if knobs > room { room.saturating_sub(1) } else { room };
+        Self { notes, room, from: (active + 1).saturating_sub(visible), visible }
+    }
+}
+
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     clear(area, buffer);
     let body = heading(model, Panel::Parameters, &[], area, buffer);
     let theme = &model.theme;
     let knobs = model.knobs();
     let active = model.state().knob.min(knobs.len().saturating_sub(1));
-    let height = usize::from(body.height);
-    let blocks = notes(model, usize::from(body.width).saturating_sub(1));
-    // The first block (the counts) always shows; the others where they fit whole, once the knobs have their rows.
-    let least = if model.focus == Panel::Parameters { height * 3 / 5 } else { height * 9 / 20 };
-    let spare = height.saturating_sub(knobs.len()).max(least);
-    let mut lines: Vec<(String, bool)> = Vec::new();
-    for (index, block) in blocks.into_iter().enumerate() {
-        if index == 0 || lines.len() + block.len() <= spare {
-            lines.extend(block);
-        }
-    }
-    // Facts take what is left, and no knob its row.
-    for fact in model.plan().setup.method.notes(&model.plan().setup.settings) {
-        let block = wrapped(&fact, usize::from(body.width).saturating_sub(1));
-        if lines.len() + block.len() + knobs.len() <= height {
-            lines.extend(block.into_iter().map(|line| (line, false)));
-        }
-    }
-    lines.truncate(height.saturating_sub(4));
-    let reserved = lines.len();
-    let room = height - reserved;
-    // Knobs that do not fit scroll; the last row says how many are out of sight.
-    let cut = knobs.len() > room;
-    let visible = if cut { room.saturating_sub(1) } else { room };
-    let from = (active + 1).saturating_sub(visible);
+    let Rows { notes, room, from, visible } = Rows::of(model, body);
     let setup = &model.plan().setup;
     let shown: Vec<(usize, &Knob)> = knobs.iter().enumerate().skip(from).take(visible).collect();
     for (row, (index, knob)) in shown.into_iter().enumerate() {
@@ -74,11 +94,11 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         ]);
         put(line, row, body, buffer);
     }
-    if cut {
+    if knobs.len() > room {
         let hidden = knobs.len() - visible;
         put(Line::styled(format!("{:15}  … {hidden} more", ""), theme.dim), visible, body, buffer);
     }
-    for (i, (text, warn)) in lines.into_iter().enumerate() {
+    for (i, (text, warn)) in notes.into_iter().enumerate() {
         let style = if warn { theme.warning } else { theme.dim };
         put(Line::styled(text, style), room + i, body, buffer);
     }
@@ -93,7 +113,7 @@ fn put(line: Line<'_>, row: usize, body: Rect, buffer: &mut Buffer) {
 
 /// Blocks of rows of at most `width` columns, the most wanted first: counts, the help of the active knob while the
 /// panel has the keyboard, warnings. True for a warning.
-fn notes(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
+fn blocks(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
     let mut blocks = Vec::new();
     let block = |text: &str, warn: bool| wrapped(text, width).into_iter().map(|line| (line, warn)).collect::<Vec<_>>();
     let setup = &model.plan().setup;

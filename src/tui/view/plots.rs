@@ -6,6 +6,7 @@ use ratatui::text::Span as Words;
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
+use super::super::layout::{TraceParts, trace_parts};
 use super::super::model::{Model, YMode};
 use super::super::picture::Picture;
 use super::super::plot::{
@@ -36,12 +37,9 @@ impl<'a> Plots<'a> {
     pub(super) fn trace(&self, area: Rect, buffer: &mut Buffer) {
         let model = self.model;
         let (theme, glyphs, state) = (&model.theme, model.glyphs, model.state());
-        let head = Rect { height: area.height.min(1), ..area };
-        let mut body = Rect { y: area.y + head.height, height: area.height - head.height, ..area };
-        let axis_row = (body.height >= 5).then(|| take_bottom(&mut body));
         let sides = state.pinned.as_deref().and_then(|p| p.sides.as_ref());
-        let side_row = sides.filter(|_| body.height >= 6).map(|_| take_bottom(&mut body));
-        let rail_row = take_bottom(&mut body);
+        let parts = trace_parts(area, sides.is_some());
+        let TraceParts { head, body, rail: rail_row, axis: axis_row, sides: side_row } = parts;
         let plot = TracePlot::plot_area(body);
         let columns = &*self.picture.trace((plot.width, body.height));
         // The rail never goes away, not even while the record is shown as it will be after repair, without its flags.

@@ -1,0 +1,127 @@
+//! What lies under a cell of the screen.
+
+use ratatui::layout::Rect;
+
+use super::action::Panel;
+use super::layout::{self, trace_parts};
+use super::model::Model;
+use super::picture::Picture;
+use super::plot::TracePlot;
+use super::update::queue::window;
+use super::view::parameters::Rows;
+
+/// How many columns away from a flag a click still means it.
+const NEAR: u16 = 2;
+
+/// What lies under a cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Spot {
+    /// The overview, at this place on the x axis.
+    Overview(f64),
+    /// The curve, at this place on the x axis; with the sample that the cell points at.
+    Trace(f64, Option<usize>),
+    /// The rail of the trace, at this place on the x axis; with the first flag of its column.
+    Rail(f64, Option<usize>),
+    /// The residual, at this place on the x axis; with the sample.
+    Residual(f64, Option<usize>),
+    /// The queue; with the index of the flag.
+    Queue(Option<usize>),
+    /// The parameters; with the index of the knob.
+    Parameters(Option<usize>),
+    /// The card.
+    Card,
+    /// Nothing that a mouse does something with.
+    Elsewhere,
+}
+
+impl Spot {
+    /// The panel it belongs to.
+    pub(super) fn panel(self) -> Option<Panel> {
+        match self {
+            Self::Trace(..) | Self::Rail(..) => Some(Panel::Trace),
+            Self::Residual(..) => Some(Panel::Residual),
+            Self::Queue(_) => Some(Panel::Queue),
+            Self::Parameters(_) => Some(Panel::Parameters),
+            Self::Card => Some(Panel::Card),
+            Self::Overview(_) | Self::Elsewhere => None,
+        }
+    }
+
+    /// The place on the x axis it is at.
+    pub(super) fn x(self) -> Option<f64> {
+        match self {
+            Self::Overview(x) | Self::Trace(x, _) | Self::Rail(x, _) | Self::Residual(x, _) => Some(x),
+            Self::Queue(_) | Self::Parameters(_) | Self::Card | Self::Elsewhere => None,
+        }
+    }
+}
+
+/// What lies under the cell in this column and row. Drawers lie over the plots.
+pub(super) fn spot(model: &Model, column: u16, row: u16) -> Spot {
+    let Some(areas) = layout::arrange(model) else { return Spot::Elsewhere };
+    let inside = |area: Option<Rect>| area.filter(|a| a.contains((column, row).into()));
+    let drawn_over = |area: Rect| if areas.knobs.is_some() { layout::drawer(area) } else { area };
+    if let Some(area) = inside(areas.queue) {
+        return queue(model, drawn_over(area), row);
+    }
+    if let Some(area) = inside(areas.parameters) {
+        return parameters(model, drawn_over(area), row);
+    }
+    if let Some(area) = inside(areas.overview) {
+        let whole = model.whole();
+        return x_at(TracePlot::plot_area(area), (whole.from, whole.to), column)
+            .map_or(Spot::Elsewhere, Spot::Overview);
+    }
+    if let Some(area) = inside(areas.trace) {
+        return trace(model, area, column, row);
+    }
+    if let Some(area) = inside(areas.residual) {
+        let plot = TracePlot::plot_area(below_heading(area));
+        let view = model.state().view;
+        let x = x_at(plot, (view.from, view.to), column).filter(|_| row > area.y);
+        return x.map_or(Spot::Elsewhere, |x| Spot::Residual(x, model.nearest_x(x)));
+    }
+    if inside(areas.card).is_some() { Spot::Card } else { Spot::Elsewhere }
+}
+
+fn trace(model: &Model, area: Rect, column: u16, row: u16) -> Spot {
+    let pinned = model.state().pinned.as_deref().is_some_and(|p| p.sides.is_some());
+    let parts = trace_parts(area, pinned);
+    let plot = TracePlot::plot_area(parts.body);
+    let view = model.state().view;
+    let Some(x) = x_at(plot, (view.from, view.to), column) else { return Spot::Elsewhere };
+    let (picture, size) = (Picture::of(model, model.shown), (plot.width, parts.body.height));
+    if parts.rail.contains((column, row).into()) {
+        return Spot::Rail(x, picture.first_flag(size, column - plot.x));
+    }
+    if !plot.contains((column, row).into()) {
+        return Spot::Elsewhere;
+    }
+    Spot::Trace(x, picture.pointed(size, (column - plot.x, row - plot.y), NEAR))
+}
+
+/// The place on the x axis in the middle of a column of a plot; none left or right of it.
+fn x_at(plot: Rect, (from, to): (f64, f64), column: u16) -> Option<f64> {
+    let at = column.checked_sub(plot.x).filter(|at| *at < plot.width)?;
+    Some(from + (to - from) * (f64::from(at) + 0.5) / f64::from(plot.width))
+}
+
+fn below_heading(area: Rect) -> Rect {
+    let head = area.height.min(1);
+    Rect { y: area.y + head, height: area.height - head, ..area }
+}
+
+fn queue(model: &Model, area: Rect, row: u16) -> Spot {
+    let rows = layout::queue_rows(area);
+    let (shown, _) = window(model, rows);
+    let first = area.bottom() - u16::try_from(rows).unwrap_or(0).min(area.height);
+    let at = row.checked_sub(first).map(|r| shown.start + usize::from(r));
+    Spot::Queue(at.filter(|i| shown.contains(i)))
+}
+
+fn parameters(model: &Model, area: Rect, row: u16) -> Spot {
+    let body = below_heading(area);
+    let rows = Rows::of(model, body);
+    let at = row.checked_sub(body.y).map(usize::from).filter(|r| *r < rows.visible).map(|r| rows.from + r);
+    Spot::Parameters(at.filter(|i| *i < model.knobs().len()))
+}
