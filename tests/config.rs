@@ -27,13 +27,19 @@ fn the_keys_in_force_are_printed_as_a_configuration_that_gives_them() {
 
 #[test]
 fn a_configuration_that_is_not_understood_ends_the_start_with_the_line() {
-    let folder = configured("# mine\n[keys]\nnext-flag = \"n\"\naccept = \"n\"\n");
+    let text = "# mine\n[keys]\nnext-flag = \"n\"\naccept = \"n\"\n";
+    let folder = configured(text);
     for words in ["demo.csv", "keys"] {
         let ran = folder.run(words);
         assert_eq!((ran.status, ran.out.as_str()), (2, ""), "{words}");
         let place = "wildpoint/config.toml:4: n means next-flag and accept";
         assert!(ran.err.contains(place) && ran.err.contains("--no-config starts without it"), "{}", ran.err);
     }
+    // It is read and never written.
+    assert_eq!(
+        (folder.names(), folder.text("wildpoint/config.toml")),
+        (vec!["demo.csv".into(), "wildpoint".into()], text.into())
+    );
     assert_eq!(folder.run("--no-config demo.csv").status, 0);
     // What needs no screen does not look at it.
     folder.done("methods hampel");

@@ -72,6 +72,21 @@ fn command_with_an_error() {
 }
 
 #[test]
+fn palette_while_an_action_is_typed() {
+    both("palette", ":next Down");
+}
+
+#[test]
+fn palette_with_the_parameters_of_the_method() {
+    both("palette_set", ":set Space ma");
+}
+
+#[test]
+fn jump_with_its_forms_and_an_error() {
+    both("jump", "/state:good Enter");
+}
+
+#[test]
 fn question_before_quitting() {
     both("confirm_quit", "a q");
 }

@@ -47,9 +47,11 @@ pub(super) fn score(typed: &str, name: &str) -> Option<i32> {
 #[must_use]
 pub(super) fn ranked<'a>(typed: &str, items: impl IntoIterator<Item = (&'a str, &'a str)>) -> Vec<usize> {
     let words: Vec<String> = typed.split_whitespace().map(str::to_lowercase).collect();
+    // One or two letters are in every help.
+    let long = words.iter().all(|w| w.chars().count() > 2);
     let by_help = |help: &str| {
         let help = help.to_lowercase();
-        words.iter().all(|w| help.contains(w.as_str())).then_some(i32::MIN)
+        (long && words.iter().all(|w| help.contains(w.as_str()))).then_some(i32::MIN)
     };
     let fits = |(index, (name, help)): (usize, (&str, &str))| {
         score(typed, name).or_else(|| by_help(help)).map(|score| (index, score))
@@ -101,6 +103,7 @@ mod tests {
         let items = [("undo", "take the last change back"), ("redo", "undo an undo"), ("save", "undo nothing")];
         assert_eq!(ranked("undo", items), [0, 1, 2]);
         assert_eq!(ranked("last change", items), [0]);
+        assert_eq!(ranked("ch", items), [0; 0]);
         assert_eq!(ranked("", items), [0, 1, 2]);
     }
 }

@@ -77,7 +77,7 @@ fn with_decisions_the_saved_session_is_replayed() {
     terminal.wait_for("rejected row 200");
     terminal.settle();
     terminal.keys("Y");
-    terminal.wait_for(":w saves one");
+    terminal.wait_for("are in a session only");
     terminal.keys(":w s.toml\r");
     terminal.wait_for("saved s.toml");
     terminal.keys(":export exported.csv\r");

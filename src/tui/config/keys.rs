@@ -103,7 +103,8 @@ fn check(keys: &Keys, places: &Places, faults: &mut Vec<Fault>) {
     let rows = keys.rows();
     let together = |a: Context, b: Context| a == b || (!a.is_own() && !b.is_own());
     // A fault stands where the configuration does; the table by itself has none, as its tests see to.
-    let place = |i: usize, j: usize| places.get(&i).or(places.get(&j)).cloned();
+    // Of two that are configured, the later one is at fault.
+    let place = |i, j| [places.get(&i), places.get(&j)].into_iter().flatten().max_by_key(|span| span.start).cloned();
     for (i, a) in rows.iter().enumerate() {
         for (j, b) in rows.iter().enumerate() {
             let Some(span) = place(i, j) else { continue };

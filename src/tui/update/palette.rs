@@ -234,8 +234,10 @@ pub(super) fn complete(model: &Model, prompt: &mut Prompt) {
     let line = prompt.input.value().to_owned();
     let found = suggestions(model, &line);
     let common = command::complete(model, &line).filter(|c| c.len() > line.len() && prompt.choice.is_none());
+    // A whole name is followed by what can follow it.
+    let whole = |c: String| found.iter().find(|s| s.line.trim_end() == c).map_or(c, |s| s.line.clone());
     let at = prompt.choice.unwrap_or(0);
-    if let Some(line) = common.or_else(|| found.get(at).map(|s| s.line.clone())) {
+    if let Some(line) = common.map(whole).or_else(|| found.get(at).map(|s| s.line.clone())) {
         fill(prompt, &line);
     }
 }
