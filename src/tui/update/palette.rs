@@ -74,7 +74,7 @@ fn everything(model: &Model) -> Vec<Suggestion> {
     for bound in model.keys.rows() {
         let action = bound.row.action;
         let name = action.name();
-        match all.iter_mut().find(|s| s.take == Take::Act(action)) {
+        match all.iter_mut().find(|s| s.name == name) {
             Some(known) => known.keys = format!("{} {}", known.keys, bound.shown()).trim().to_owned(),
             None if action == Action::Command => {}
             None => {
