@@ -28,17 +28,71 @@ impl LineOfFive {
         let x = self.t.map(|s| s - t);
         let level = self.y[0];
         let v = self.y.map(|y| y - level);
-        let middle = (x[0] + x[1] + x[2] + x[3] + x[4]) / 5.0;
-        let mean = (v[0] + v[1] + v[2] + v[3] + v[4]) / 5.0;
-        let (mut xx, mut xv) = (0.0, 0.0);
-        for i in 0..5 {
-            let d = x[i] - middle;
-            xx += d * d;
-            xv += d * v[i];
-        }
-        let per_xx = 1.0 / xx;
-        (level + (mean - middle * (xv * per_xx)), 0.2 + middle * middle * per_xx)
+        line(x, v, level)
     }
+}
+
+/// How many lines [`LineOfFive::ahead`] works out at a time.
+pub const AHEAD: usize = 5 * LANES;
+
+/// Lines five points apart have their points in the same places of the ring: so many go side by side.
+const LANES: usize = 4;
+
+impl LineOfFive {
+    /// True when the oldest point stands first in the ring, as [`LineOfFive::ahead`] wants it.
+    #[must_use]
+    #[inline]
+    pub fn in_order(&self) -> bool {
+        self.next == 0
+    }
+
+    /// What [`LineOfFive::at`] would say of each of these points if the ones before it had been pushed, to the last
+    /// bit: each sum runs over the places of the ring in their order, and what is worked out side by side are lines
+    /// five points apart, which have each place filled alike. The line must be [`LineOfFive::in_order`].
+    #[must_use]
+    #[inline]
+    pub fn ahead(&self, t: &[f64; AHEAD], y: &[f64; AHEAD]) -> ([f64; AHEAD], [f64; AHEAD]) {
+        // Row `s`: what stands in place `s` of the ring, one after the other.
+        let rows = |ring: &[f64; 5], next: &[f64; AHEAD]| -> [[f64; LANES + 1]; 5] {
+            std::array::from_fn(|s| std::array::from_fn(|b| if b == 0 { ring[s] } else { next[5 * (b - 1) + s] }))
+        };
+        let (t, y) = (rows(&self.t, t), rows(&self.y, y));
+        let (mut values, mut variances) = ([0.0; AHEAD], [0.0; AHEAD]);
+        for s in 0..5 {
+            for b in 0..LANES {
+                // Places before `s` have got their next point already.
+                let place = |rows: &[[f64; LANES + 1]; 5], j: usize| rows[j][b + usize::from(j < s)];
+                let at = t[s][b + 1];
+                let level = place(&y, 0);
+                let x: [f64; 5] = std::array::from_fn(|j| place(&t, j) - at);
+                let v: [f64; 5] = std::array::from_fn(|j| place(&y, j) - level);
+                (values[5 * b + s], variances[5 * b + s]) = line(x, v, level);
+            }
+        }
+        (values, variances)
+    }
+
+    /// [`LineOfFive::push`] for all points that [`LineOfFive::ahead`] looked at.
+    #[inline]
+    pub fn push_all(&mut self, t: &[f64; AHEAD], y: &[f64; AHEAD]) {
+        self.t.copy_from_slice(&t[AHEAD - 5..]);
+        self.y.copy_from_slice(&y[AHEAD - 5..]);
+    }
+}
+
+/// Value and variance at 0 of the line through five points at `x` with the values `v` above `level`.
+#[inline]
+fn line(x: [f64; 5], v: [f64; 5], level: f64) -> (f64, f64) {
+    let middle = (x[0] + x[1] + x[2] + x[3] + x[4]) / 5.0;
+    let mean = (v[0] + v[1] + v[2] + v[3] + v[4]) / 5.0;
+    let (mut xx, mut xv) = (0.0, 0.0);
+    for i in 0..5 {
+        let d = x[i] - middle;
+        xx += d * d;
+        xv += d * v[i];
+    }
+    let per_xx = 1.0 / xx;
+    (level + (mean - middle * (xv * per_xx)), 0.2 + middle * middle * per_xx)
 }
 
 #[cfg(test)]
@@ -60,5 +114,28 @@ mod tests {
                 assert!((variance - fit.variance_at(t[i + 1])).abs() < 1e-12, "at {i}");
             }
         }
+    }
+
+    #[test]
+    fn twenty_at_a_time_are_the_same_to_the_last_bit() {
+        let t: [f64; 5 + 2 * AHEAD] = std::array::from_fn(|i| 1.7e9 + 0.1 * i as f64 + 0.03 * (i * i % 4) as f64);
+        let y: [f64; 5 + 2 * AHEAD] = std::array::from_fn(|i| 1e6 + (i as f64 * 12.9898).sin() * 40.0);
+        let mut plain = LineOfFive::default();
+        (0..5).for_each(|i| plain.push(t[i], y[i]));
+        let mut many = plain.clone();
+        for block in 0..2 {
+            assert!(many.in_order());
+            let from = 5 + block * AHEAD;
+            let times: &[f64; AHEAD] = t[from..from + AHEAD].try_into().unwrap();
+            let values: &[f64; AHEAD] = y[from..from + AHEAD].try_into().unwrap();
+            let (expected, variances) = many.ahead(times, values);
+            for i in 0..AHEAD {
+                let (value, variance) = plain.at(times[i]);
+                assert_eq!((value.to_bits(), variance.to_bits()), (expected[i].to_bits(), variances[i].to_bits()));
+                plain.push(times[i], values[i]);
+            }
+            many.push_all(times, values);
+        }
+        assert_eq!((plain.t, plain.y, plain.next), (many.t, many.y, many.next));
     }
 }

@@ -1,6 +1,6 @@
 //! Five-point prediction with an adaptive limit: section 4 of the methods page, \[001\] eqs. (27)-(34).
 
-use super::predictor::{self, Answer, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
+use super::predictor::{self, Answer, Batch, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
 use super::{About, Judged, Method, Own, Segment, reaches, shared};
 use crate::math::huber::{HuberScale, Update};
 use crate::math::line_of_five::LineOfFive;
@@ -81,7 +81,7 @@ impl Method for Adaptive {
             return Ok(Judged::unchecked(segment.len()));
         }
         let rules = Rules::of(settings);
-        let model = || AdaptiveLine::new(segment.sigma, segment.floor, settings, &rules);
+        let model = |_| AdaptiveLine::new(segment.sigma, segment.floor, settings, &rules);
         predictor::judge_both_ways(model, segment, rules.max_run, rules.look_back, stop)
     }
 
@@ -156,7 +156,7 @@ impl Model for AdaptiveLine {
         self.scale.reset();
     }
 
-    #[inline]
+    #[inline(always)]
     fn predict(&mut self, t: f64, _: usize, _: usize) {
         let (expected, variance) = self.line.at(t);
         self.to_even = (EVEN_VARIANCE / (1.0 + variance)).sqrt();
@@ -167,7 +167,7 @@ impl Model for AdaptiveLine {
         &self.prediction
     }
 
-    #[inline]
+    #[inline(always)]
     fn answer(&mut self, t: f64, y: f64) -> Answer {
         let Prediction { expected, tolerance } = self.prediction;
         let residual = y - expected;
@@ -181,3 +181,6 @@ impl Model for AdaptiveLine {
         Answer::Accepts
     }
 }
+
+// Each scale comes from the one before: nothing is gained by many at a time.
+impl Batch for AdaptiveLine {}

@@ -1,7 +1,7 @@
 //! Alpha-beta-gamma filter: section 4 of the methods page, \[001\] eqs. (23)-(26).
 
-use super::predictor::{self, Answer, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
-use super::{About, Judged, Method, Own, Segment, reaches, shared};
+use super::predictor::{self, Answer, Batch, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
+use super::{About, Judged, Method, Own, Segment, Way, reaches, shared};
 use crate::math::gains::{self, Gains};
 use crate::param::{Kind, Param, Settings, Step, Value, always};
 use crate::stop::{Stop, Stopped};
@@ -52,13 +52,27 @@ impl Method for AlphaBetaGamma {
             return Ok(Judged::unchecked(segment.len()));
         }
         let rules = Rules::of(settings);
-        let model = || Tracker::new(segment.sigma, settings.real(ALPHA.key), &rules);
+        let model = |way| {
+            let mut tracker = Tracker::new(segment.sigma, settings.real(ALPHA.key), &rules);
+            tracker.spread_until = last_gap(segment, way);
+            tracker
+        };
         predictor::judge_both_ways(model, segment, rules.max_run, rules.look_back, stop)
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {
         predictor::cannot_flag(&Rules::of(settings))
     }
+}
+
+/// The time, in the order of the run, of the last sample before which samples are lost.
+fn last_gap(segment: &Segment<'_>, way: Way) -> f64 {
+    let lost = |i: &usize| segment.lost_before(*i) > 0;
+    let gap = match way {
+        Way::Forward => (1..segment.len()).rev().find(lost).map(|i| segment.t[i]),
+        Way::Backward => (1..segment.len()).find(lost).map(|i| -segment.t[i - 1]),
+    };
+    gap.unwrap_or(f64::NEG_INFINITY)
 }
 
 /// The model: fed sample by sample by a [`predictor::Engine`].
@@ -72,6 +86,8 @@ pub struct Tracker {
     /// Position, velocity and acceleration: estimated, or predicted between `predict` and `answer`.
     state: [f64; 3],
     spread: Spread,
+    /// From this time on nothing is lost, and the spread is not asked for.
+    spread_until: f64,
     /// Samples taken in, those of the exact parabola included.
     used: usize,
     /// Step to the sample that was predicted last.
@@ -97,6 +113,7 @@ impl Tracker {
             t: f64::NAN,
             state: [0.0; 3],
             spread: Spread::default(),
+            spread_until: f64::INFINITY,
             used: 0,
             step: f64::NAN,
             gains: gains::steady(alpha),
@@ -128,7 +145,9 @@ impl Tracker {
         for (x, k) in self.state.iter_mut().zip(gain) {
             *x += k * r;
         }
-        self.spread.step(self.step, Some(gain));
+        if self.t < self.spread_until {
+            self.spread.step(self.step, Some(gain));
+        }
         self.used += 1;
     }
 }
@@ -190,5 +209,38 @@ impl Model for Tracker {
         self.update(y);
         self.rate.accept(t, y);
         Answer::Accepts
+    }
+}
+
+impl Batch for Tracker {
+    fn take_in(&mut self, t: &[f64], y: &[f64], whole: f64, said: &mut [Prediction]) -> usize {
+        if !self.steady || self.rate.is_set() {
+            return 0;
+        }
+        let (Gains { a, b, g }, tolerance) = (self.gains, self.k * self.sigma * self.deviation);
+        // In registers: through memory each sample would wait for the one before it to be written.
+        let ([mut p, mut u, mut s], mut last) = (self.state, self.t);
+        let mut taken = 0;
+        for ((&t, &y), said) in t.iter().zip(y).zip(said) {
+            let h = t - last;
+            let half = 0.5 * h * h;
+            let expected = p + (u * h + s * half);
+            let r = y - expected;
+            if h >= whole || reaches(r.abs(), tolerance) {
+                break;
+            }
+            let per_step = 1.0 / h;
+            let gain = [a, b * per_step, g * per_step * per_step];
+            (p, u, s) = (expected + gain[0] * r, (u + s * h) + gain[1] * r, s + gain[2] * r);
+            if t < self.spread_until {
+                self.spread.step(h, Some(gain));
+            }
+            *said = Prediction { expected, tolerance };
+            (last, self.step) = (t, h);
+            taken += 1;
+        }
+        (self.state, self.t) = ([p, u, s], last);
+        self.used += taken;
+        taken
     }
 }

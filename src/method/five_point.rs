@@ -1,8 +1,8 @@
 //! Five-point linear prediction: section 4 of the methods page, \[001\] section 3.
 
-use super::predictor::{self, Answer, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
+use super::predictor::{self, Answer, Batch, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
 use super::{About, Judged, Method, Own, Segment, reaches, shared};
-use crate::math::line_of_five::LineOfFive;
+use crate::math::line_of_five::{AHEAD, LineOfFive};
 use crate::param::{Param, Settings, Value};
 use crate::stop::{Stop, Stopped};
 
@@ -38,7 +38,7 @@ impl Method for FivePoint {
             return Ok(Judged::unchecked(segment.len()));
         }
         let rules = Rules::of(settings);
-        let model = || Line::new(segment.sigma, &rules);
+        let model = |_| Line::new(segment.sigma, &rules);
         predictor::judge_both_ways(model, segment, rules.max_run, rules.look_back, stop)
     }
 
@@ -110,5 +110,43 @@ impl Model for Line {
         self.line.push(t, y);
         self.rate.accept(t, y);
         Answer::Accepts
+    }
+}
+
+impl Batch for Line {
+    fn take_in(&mut self, t: &[f64], y: &[f64], _: f64, said: &mut [Prediction]) -> usize {
+        if self.rate.is_set() {
+            return 0;
+        }
+        let scale = self.k * self.sigma;
+        let mut at = 0;
+        while at < y.len() {
+            let (rest_t, rest_y) = (t[at..].first_chunk::<AHEAD>(), y[at..].first_chunk::<AHEAD>());
+            if let (true, Some(times), Some(values)) = (self.line.in_order(), rest_t, rest_y) {
+                let (expected, variances) = self.line.ahead(times, values);
+                let mut flagged = [false; AHEAD];
+                for i in 0..AHEAD {
+                    let tolerance = scale * (1.0 + variances[i]).sqrt();
+                    said[at + i] = Prediction { expected: expected[i], tolerance };
+                    flagged[i] = reaches((values[i] - expected[i]).abs(), tolerance);
+                }
+                let Some(taken) = flagged.iter().position(|flagged| *flagged) else {
+                    self.line.push_all(times, values);
+                    at += AHEAD;
+                    continue;
+                };
+                (0..taken).for_each(|i| self.line.push(times[i], values[i]));
+                return at + taken;
+            }
+            self.predict(t[at], 0, 0);
+            let Prediction { expected, tolerance } = self.prediction;
+            if reaches((y[at] - expected).abs(), tolerance) {
+                return at;
+            }
+            said[at] = self.prediction;
+            self.line.push(t[at], y[at]);
+            at += 1;
+        }
+        at
     }
 }

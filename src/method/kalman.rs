@@ -1,6 +1,6 @@
 //! Kalman innovation test with infill: section 7 of the methods page, \[004\].
 
-use super::predictor::{Engine, Page};
+use super::predictor::{Engine, Page, feed};
 use super::{About, Judged, Method, Own, Segment, Together, Verdict, Way, shared};
 use crate::param::{Kind, Param, Settings, Step, Value, always};
 use crate::stop::{Stop, Stopped};
@@ -222,7 +222,7 @@ impl Record for One<'_> {
     }
 
     fn run(&self, filled: &[Vec<f64>], way: Way, pages: &mut [Page], stop: &Stop) -> Result<(), Stopped> {
-        let (t, y, n) = (self.segment.t, self.segment.y, self.segment.len());
+        let y = self.segment.y;
         let Some(page) = pages.first_mut() else { return Ok(()) };
         let filled: &[f64] = filled.first().map_or(&[], Vec::as_slice);
         let sample = |i: usize| match filled.get(i).copied() {
@@ -230,13 +230,8 @@ impl Record for One<'_> {
             _ => Measured { y: y[i], filled: false },
         };
         let mut engine = Engine::new(Single::new(self.tuning), self.segment.interval, self.max_run);
-        for at in 0..n {
-            stop.check_at(at)?;
-            match way {
-                Way::Forward => engine.push(t[at], sample(at), page),
-                Way::Backward => engine.push(-t[n - 1 - at], sample(n - 1 - at), page),
-            }
-        }
+        feed(&mut engine, self.segment.t, sample, way, page, stop)?;
+        page.complete();
         Ok(())
     }
 }

@@ -6,10 +6,12 @@ use std::ops::Range;
 
 use crate::track::lost_samples;
 
+mod batch;
 mod look_back;
 mod rules;
 mod start;
 
+pub use batch::{Batch, feed};
 pub use look_back::{First, Page, judge_both_ways};
 pub use rules::{RateLimit, Rules, cannot_flag};
 pub use start::{passed_over_by_fourth, passed_over_by_third};
@@ -68,6 +70,13 @@ pub trait Sink<P> {
 
     /// A sample was judged; `run` outliers stand directly before it.
     fn judged(&mut self, at: usize, answer: Answer, run: usize, prediction: &P);
+
+    /// The samples from `at` on were judged and accepted, and no outlier stands before the first of them.
+    fn accepted(&mut self, at: usize, predictions: &[P]) {
+        for (k, prediction) in predictions.iter().enumerate() {
+            self.judged(at + k, Answer::Accepts, 0, prediction);
+        }
+    }
 
     /// The model is lost at this run of outliers. They will be judged anew as far as a new model gets hold of them.
     fn lost(&mut self, run: Range<usize>);
@@ -130,8 +139,7 @@ impl<M: Model> Engine<M> {
     #[inline]
     pub fn push(&mut self, t: f64, sample: M::Sample, sink: &mut impl Sink<M::Prediction>) {
         let step = t - self.last;
-        // The usual step needs no division: below one and a half intervals nothing is lost.
-        let lost = if self.count == 0 || step < 1.49 * self.interval { 0 } else { lost_samples(step, self.interval) };
+        let lost = if self.count == 0 { 0 } else { lost_samples(step, self.interval) };
         self.last = t;
         let at = self.count;
         self.count += 1;

@@ -47,7 +47,7 @@ impl Tuning {
 const GROUP: usize = 4;
 
 /// The filter.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Filter {
     /// Value of the first sample of the start group: the state is relative to it, so that an offset of the values
     /// costs no digits.
@@ -205,7 +205,7 @@ mod tests {
             let tuning = tuning(order);
             for steps in [1_usize, 2, 3, 7] {
                 let mut at_once = Filter::start(&GROUP_OF_4, &tuning);
-                let mut one_by_one = at_once.clone();
+                let mut one_by_one = at_once;
                 at_once.predict(0.5 * steps as f64, steps, &tuning);
                 (0..steps).for_each(|_| one_by_one.predict(0.5, 1, &tuning));
                 for (a, b) in at_once.p.iter().zip(one_by_one.p) {

@@ -133,6 +133,7 @@ impl Record for Many<'_> {
                 Way::Backward => engine.push(-self.t[n - 1 - at], n - 1 - at, &mut pages),
             }
         }
+        pages.0.iter_mut().for_each(Page::complete);
         Ok(())
     }
 }

@@ -31,35 +31,47 @@ pub(super) struct Plan {
 
 /// Judges every channel of a record; with entries for all times, also where a channel has no sample.
 pub(super) fn judge(record: &impl Record, plan: &Plan, stop: &Stop) -> Result<Vec<Judged>, Stopped> {
+    let channels = record.channels();
+    let forward = || -> Result<Vec<Page>, Stopped> {
+        let (mut pages, filled) = one_way(record, plan, Way::Forward, stop)?;
+        for ((page, y), filled) in pages.iter_mut().zip(&channels).zip(&filled) {
+            page.judged.own = own(y, &page.judged, filled, plan.patch, Way::Forward);
+        }
+        Ok(pages)
+    };
     if !plan.look_back {
-        return Ok(one_way(record, plan, Way::Forward, stop)?.into_iter().map(|page| page.judged).collect());
+        return Ok(forward()?.into_iter().map(|page| page.judged).collect());
     }
-    let (forward, backward) =
-        rayon::join(|| one_way(record, plan, Way::Forward, stop), || one_way(record, plan, Way::Backward, stop));
-    let pages = forward?.into_iter().zip(backward?);
-    Ok(pages.map(|(forward, backward)| looked_back(forward, backward)).collect())
+    let (forward, backward) = rayon::join(forward, || one_way(record, plan, Way::Backward, stop));
+    let (forward, (backward, filled)) = (forward?, backward?);
+    let pages = forward.into_iter().zip(backward).zip(channels.iter().zip(&filled));
+    Ok(pages.map(|((forward, backward), (y, filled))| looked_back(forward, backward, y, filled, plan)).collect())
 }
 
 /// The first start group and all before it as the backward run has them.
-fn looked_back(forward: Page, backward: Page) -> Judged {
+fn looked_back(forward: Page, backward: Page, y: &[f64], filled: &[f64], plan: &Plan) -> Judged {
     let end = forward.first.map_or(0, |group| group.end);
     let (mut judged, back) = (forward.judged, backward.judged);
+    // The own repair of a run depends on all of it.
+    let inside = |i: &usize| y[*i].is_nan() || back.verdict[*i] == Verdict::Outlier;
+    let whole = end + (end..y.len()).take_while(inside).count();
+    let own = own(&y[..whole], &back, filled, plan.patch, Way::Backward);
     judged.verdict[..end].copy_from_slice(&back.verdict[..end]);
     judged.expected[..end].copy_from_slice(&back.expected[..end]);
     judged.tolerance[..end].copy_from_slice(&back.tolerance[..end]);
-    judged.own[..end].copy_from_slice(&back.own[..end]);
+    judged.own[..end].copy_from_slice(&own[..end]);
     judged.restarts.extend(back.restarts.iter().filter(|r| r.at < end));
     judged
 }
 
-/// One direction: filter, fill, filter again.
-fn one_way(record: &impl Record, plan: &Plan, way: Way, stop: &Stop) -> Result<Vec<Page>, Stopped> {
+/// One direction: filter, fill, filter again. With the pages, what patches were filled with.
+fn one_way(record: &impl Record, plan: &Plan, way: Way, stop: &Stop) -> Result<(Vec<Page>, Vec<Vec<f64>>), Stopped> {
     let n = record.times().len();
     let channels = record.channels();
     let mut pages: Vec<Page> = channels.iter().map(|_| Page::new(n, way, n)).collect();
     record.run(&[], way, &mut pages, stop)?;
-    let fill = |(page, y): (&Page, &&[f64])| filled(record.times(), y, &page.judged.verdict, plan);
-    let filled: Vec<Vec<f64>> = pages.iter().zip(&channels).map(fill).collect();
+    let fill = |(page, y): (&Page, &&[f64])| filled(record.times(), y, &page.judged.verdict, plan, stop);
+    let filled: Vec<Vec<f64>> = pages.iter().zip(&channels).map(fill).collect::<Result<_, _>>()?;
     if filled.iter().any(|values| !values.is_empty()) {
         let kept: Vec<Vec<(usize, f64, f64)>> = pages.iter().zip(&filled).map(|(page, f)| first_run(page, f)).collect();
         pages.iter_mut().for_each(Page::clear);
@@ -72,10 +84,7 @@ fn one_way(record: &impl Record, plan: &Plan, way: Way, stop: &Stop) -> Result<V
             }
         }
     }
-    for ((page, y), filled) in pages.iter_mut().zip(&channels).zip(&filled) {
-        page.judged.own = own(y, &page.judged, filled, plan.patch, way);
-    }
-    Ok(pages)
+    Ok((pages, filled))
 }
 
 /// Expected values and tolerances of the filled samples, which stay those of the first run.
@@ -86,40 +95,47 @@ fn first_run(page: &Page, filled: &[f64]) -> Vec<(usize, f64, f64)> {
 }
 
 /// Calls `visit` with each run of outliers among the samples that a channel has.
-fn for_runs(y: &[f64], verdict: &[Verdict], mut visit: impl FnMut(&[usize])) {
+fn for_runs<E>(y: &[f64], verdict: &[Verdict], mut visit: impl FnMut(&[usize]) -> Result<(), E>) -> Result<(), E> {
     let mut run: Vec<usize> = Vec::new();
-    for (i, _) in y.iter().enumerate().filter(|(_, y)| !y.is_nan()) {
-        if verdict[i] == Verdict::Outlier {
-            run.push(i);
-        } else if !run.is_empty() {
-            visit(&run);
+    let mut at = 0;
+    // From outlier to outlier: nearly all samples are none.
+    while let Some(skipped) = verdict[at..y.len()].iter().position(|v| *v == Verdict::Outlier) {
+        at += skipped;
+        while at < y.len() && (verdict[at] == Verdict::Outlier || y[at].is_nan()) {
+            if !y[at].is_nan() {
+                run.push(at);
+            }
+            at += 1;
+        }
+        if !run.is_empty() {
+            visit(&run)?;
             run.clear();
         }
     }
-    if !run.is_empty() {
-        visit(&run);
-    }
+    Ok(())
 }
 
 /// What patches are filled with, NaN elsewhere; empty when nothing is filled.
-fn filled(t: &[f64], y: &[f64], verdict: &[Verdict], plan: &Plan) -> Vec<f64> {
+fn filled(t: &[f64], y: &[f64], verdict: &[Verdict], plan: &Plan, stop: &Stop) -> Result<Vec<f64>, Stopped> {
     let mut values = Vec::new();
     let accepted = |i: usize| !y[i].is_nan() && verdict[i] != Verdict::Outlier;
     for_runs(y, verdict, |run| {
         if run.len() < plan.patch {
-            return;
+            return Ok(());
         }
+        stop.check()?;
         for (&i, value) in run.iter().zip(plan.fill.values(t, y, accepted, run)) {
             if !value.is_nan() {
                 values.resize(y.len(), f64::NAN);
                 values[i] = value;
             }
         }
-    });
-    values
+        Ok(())
+    })?;
+    Ok(values)
 }
 
-/// The own repair of every outlier; NaN where it is removed, and for all other samples.
+/// The own repair of every outlier of `y`; NaN where it is removed, and for all other samples.
 fn own(y: &[f64], judged: &Judged, filled: &[f64], patch: usize, way: Way) -> Vec<f64> {
     let mut own = vec![f64::NAN; y.len()];
     let end = match way {
@@ -127,12 +143,13 @@ fn own(y: &[f64], judged: &Judged, filled: &[f64], patch: usize, way: Way) -> Ve
         Way::Backward => y.iter().position(|y| !y.is_nan()),
     };
     let fill = |i: usize| filled.get(i).copied().filter(|v| !v.is_nan());
-    for_runs(y, &judged.verdict, |run| {
+    let Ok(()) = for_runs(y, &judged.verdict, |run| {
         let ends = run.iter().any(|&i| Some(i) == end);
         let unfilled = run.len() >= patch && run.iter().all(|&i| fill(i).is_none());
         if !ends && !unfilled {
             run.iter().for_each(|&i| own[i] = fill(i).unwrap_or(judged.expected[i]));
         }
+        Ok::<(), std::convert::Infallible>(())
     });
     own
 }

@@ -2,7 +2,7 @@
 
 use super::filter::{Filter, Tuning};
 use crate::method::exceeds;
-use crate::method::predictor::{Answer, Model, Prediction, passed_over_by_third};
+use crate::method::predictor::{Answer, Batch, Model, Prediction, passed_over_by_third};
 
 /// A sample, or what stands in its place once it is known for an outlier.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,5 +120,29 @@ impl Model for Single {
         }
         self.filter.update(sample.y, &self.tuning);
         Answer::Accepts
+    }
+}
+
+impl Batch for Single {
+    fn take_in(&mut self, t: &[f64], samples: &[Measured], whole: f64, said: &mut [Prediction]) -> usize {
+        // In registers: through memory each sample would wait for the one before it to be written.
+        let (tuning, mut filter, mut last) = (self.tuning, self.filter, self.t);
+        let mut taken = 0;
+        for ((&t, sample), said) in t.iter().zip(samples).zip(said) {
+            let h = t - last;
+            let mut ahead = filter;
+            ahead.predict(h, 1, &tuning);
+            let expected = ahead.expected();
+            let tolerance = tuning.c * ahead.innovation_variance(&tuning).sqrt();
+            if sample.filled || h >= whole || exceeds((sample.y - expected).abs(), tolerance) {
+                break;
+            }
+            ahead.update(sample.y, &tuning);
+            (filter, last) = (ahead, t);
+            *said = Prediction { expected, tolerance };
+            taken += 1;
+        }
+        (self.filter, self.t) = (filter, last);
+        taken
     }
 }

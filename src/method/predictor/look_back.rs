@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use super::{Answer, Engine, Model, Prediction, Sink};
+use super::{Answer, Batch, Engine, Model, Prediction, Sink, feed};
 use crate::method::{Judged, Restart, Segment, Verdict, Way};
 use crate::stop::{Stop, Stopped};
 
 /// What one run says of the samples of a segment, in the order of time.
 #[derive(Debug, Default)]
 pub struct Page {
-    /// Verdicts, expected values and tolerances of the samples kept.
+    /// Verdicts, expected values and tolerances of the samples kept: with time, of those so far.
     pub judged: Judged,
     /// The first start group, in positions of the segment.
     pub first: Option<Range<usize>>,
@@ -23,17 +23,40 @@ impl Page {
     /// An empty page for a run over `n` samples that keeps what is said of the first `kept` in time.
     #[must_use]
     pub fn new(n: usize, way: Way, kept: usize) -> Self {
-        let reversed = (way == Way::Backward).then_some(n);
-        Self { judged: Judged::unchecked(kept), first: None, kept, reversed }
+        let mut page = Self { kept, reversed: (way == Way::Backward).then_some(n), ..Self::default() };
+        page.judged.verdict.reserve_exact(kept);
+        page.judged.expected.reserve_exact(kept);
+        page.judged.tolerance.reserve_exact(kept);
+        page.clear();
+        page
     }
 
     /// Empties the page for another run.
     pub fn clear(&mut self) {
-        self.judged.verdict.fill(Verdict::Unchecked);
-        self.judged.expected.fill(f64::NAN);
-        self.judged.tolerance.fill(f64::NAN);
+        self.judged.verdict.clear();
+        self.judged.expected.clear();
+        self.judged.tolerance.clear();
         self.judged.restarts.clear();
         self.first = None;
+        // With time the page grows as it is written: memory that is filled twice costs twice.
+        if self.reversed.is_some() {
+            self.grow(self.kept);
+        }
+    }
+
+    /// To be called when all samples have come: those of which nothing was said are unchecked.
+    pub fn complete(&mut self) {
+        self.grow(self.kept);
+    }
+
+    /// Of the samples up to `n` that are not on the page yet, nothing is said.
+    #[cold]
+    fn grow(&mut self, n: usize) {
+        if n > self.judged.verdict.len() {
+            self.judged.verdict.resize(n, Verdict::Unchecked);
+            self.judged.expected.resize(n, f64::NAN);
+            self.judged.tolerance.resize(n, f64::NAN);
+        }
     }
 
     /// Position in the segment of the sample that came as number `at`.
@@ -42,12 +65,24 @@ impl Page {
         self.reversed.map_or(at, |n| n - 1 - at)
     }
 
+    #[inline]
     fn put(&mut self, at: usize, verdict: Verdict, expected: f64, tolerance: f64) {
         let i = self.position(at);
-        if i < self.kept {
-            self.judged.verdict[i] = verdict;
-            self.judged.expected[i] = expected;
-            self.judged.tolerance[i] = tolerance;
+        if i >= self.kept {
+            return;
+        }
+        if i > self.judged.verdict.len() {
+            self.grow(i);
+        }
+        let judged = &mut self.judged;
+        if i == judged.verdict.len() {
+            judged.verdict.push(verdict);
+            judged.expected.push(expected);
+            judged.tolerance.push(tolerance);
+        } else {
+            judged.verdict[i] = verdict;
+            judged.expected[i] = expected;
+            judged.tolerance[i] = tolerance;
         }
     }
 }
@@ -71,6 +106,36 @@ impl Sink<Prediction> for Page {
         self.put(at, verdict, prediction.expected, prediction.tolerance);
     }
 
+    fn accepted(&mut self, at: usize, predictions: &[Prediction]) {
+        match self.reversed {
+            None if at >= self.judged.verdict.len() && at + predictions.len() <= self.kept => {
+                self.grow(at);
+                let judged = &mut self.judged;
+                judged.verdict.resize(at + predictions.len(), Verdict::Normal);
+                judged.expected.extend(predictions.iter().map(|p| p.expected));
+                judged.tolerance.extend(predictions.iter().map(|p| p.tolerance));
+            }
+            // The first of them stands last in time: nothing to write before the run comes near the kept ones.
+            Some(n) if n - at - predictions.len() >= self.kept => {}
+            Some(n) if n - at <= self.kept => {
+                let stretch = n - at - predictions.len()..n - at;
+                let judged = &mut self.judged;
+                judged.verdict[stretch.clone()].fill(Verdict::Normal);
+                for (expected, p) in judged.expected[stretch.clone()].iter_mut().rev().zip(predictions) {
+                    *expected = p.expected;
+                }
+                for (tolerance, p) in judged.tolerance[stretch].iter_mut().rev().zip(predictions) {
+                    *tolerance = p.tolerance;
+                }
+            }
+            None | Some(_) => {
+                for (k, prediction) in predictions.iter().enumerate() {
+                    self.put(at + k, Verdict::Normal, prediction.expected, prediction.tolerance);
+                }
+            }
+        }
+    }
+
     fn lost(&mut self, run: Range<usize>) {
         let at = self.position(run.start);
         if at < self.kept {
@@ -90,17 +155,20 @@ pub struct First {
 
 impl First {
     /// Looks for it; none when the segment has no start.
-    #[must_use]
-    pub fn of<M: Model>(model: M, segment: &Segment<'_>, sample: impl Fn(usize) -> M::Sample) -> Option<Self> {
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more.
+    pub fn of<M: Model<Sample = f64>>(model: M, segment: &Segment<'_>, stop: &Stop) -> Result<Option<Self>, Stopped> {
         let mut engine = Engine::new(model, segment.interval, 0);
-        let mut page = Page::new(segment.len(), Way::Forward, 0);
-        for i in 0..segment.len() {
-            engine.push(segment.t[i], sample(i), &mut Nothing(&mut page.first));
-            if let Some(group) = page.first {
-                return Some(Self { end: group.end });
+        let mut first: Option<Range<usize>> = None;
+        for (i, (&t, &y)) in segment.t.iter().zip(segment.y).enumerate() {
+            stop.check_at(i)?;
+            engine.push(t, y, &mut Nothing(&mut first));
+            if let Some(group) = first {
+                return Ok(Some(Self { end: group.end }));
             }
         }
-        None
+        Ok(None)
     }
 }
 
@@ -116,43 +184,33 @@ impl<P> Sink<P> for Nothing<'_> {
 }
 
 /// Judges a segment forwards. With `look_back`, the first start group and all before it are taken from a run over
-/// the whole reversed segment: nothing earlier could judge them. A segment without a start stays unchecked.
+/// the whole reversed segment: nothing earlier could judge them. A segment without a start stays unchecked. `model` is
+/// a new model for a run in this direction.
 ///
 /// # Errors
 /// [`Stopped`] as soon as nobody waits for the result any more.
-pub fn judge_both_ways<M: Model<Sample = f64, Prediction = Prediction>>(
-    model: impl Fn() -> M + Sync,
+pub fn judge_both_ways<M: Batch<Sample = f64, Prediction = Prediction>>(
+    model: impl Fn(Way) -> M + Sync,
     segment: &Segment<'_>,
     max_run: usize,
     look_back: bool,
     stop: &Stop,
 ) -> Result<Judged, Stopped> {
     let n = segment.len();
-    let Some(first) = First::of(model(), segment, |i| segment.y[i]) else {
+    let Some(first) = First::of(model(Way::Forward), segment, stop)? else {
         return Ok(Judged::unchecked(n));
     };
-    let forward = || {
-        let mut page = Page::new(n, Way::Forward, n);
-        let mut engine = Engine::new(model(), segment.interval, max_run);
-        for i in 0..n {
-            stop.check_at(i)?;
-            engine.push(segment.t[i], segment.y[i], &mut page);
-        }
-        Ok(page.judged)
-    };
-    let backward = || {
-        let mut page = Page::new(n, Way::Backward, first.end);
-        let mut engine = Engine::new(model(), segment.interval, max_run);
-        for i in (0..n).rev() {
-            stop.check_at(i)?;
-            engine.push(-segment.t[i], segment.y[i], &mut page);
-        }
+    let run = |way, kept| {
+        let mut page = Page::new(n, way, kept);
+        let mut engine = Engine::new(model(way), segment.interval, max_run);
+        feed(&mut engine, segment.t, |i| segment.y[i], way, &mut page, stop)?;
+        page.complete();
         Ok(page.judged)
     };
     if !look_back {
-        return forward();
+        return run(Way::Forward, n);
     }
-    let (forward, backward) = rayon::join(forward, backward);
+    let (forward, backward) = rayon::join(|| run(Way::Forward, n), || run(Way::Backward, first.end));
     let (mut judged, mut back): (Judged, Judged) = (forward?, backward?);
     judged.verdict[..first.end].copy_from_slice(&back.verdict);
     judged.expected[..first.end].copy_from_slice(&back.expected);

@@ -43,6 +43,12 @@ impl RateLimit {
         Self { limit, last: (f64::NAN, f64::NAN) }
     }
 
+    /// Whether there is such a check.
+    #[must_use]
+    pub fn is_set(&self) -> bool {
+        self.limit > 0.0
+    }
+
     /// Whether the sample changed too fast.
     #[must_use]
     #[inline]
