@@ -20,10 +20,11 @@ impl<'a> Extremes<'a> {
     }
 
     /// Takes out the value that is farthest from `center` (among equally far ones the earliest) and says at which
-    /// index it stands; none when all have been taken. `scale` is a hint at how widely those left are spread.
-    pub fn next(&mut self, center: f64, scale: f64) -> Option<usize> {
+    /// index it stands; none when all have been taken. `scale` is asked
+    /// now and then for a hint at how widely those left are spread.
+    pub fn next(&mut self, center: f64, scale: impl Fn() -> f64) -> Option<usize> {
         while (self.lower.is_empty() || self.upper.is_empty()) && self.low < self.high {
-            self.reach_inwards(center, scale);
+            self.reach_inwards(center, scale());
         }
         if self.lower.is_empty() != self.upper.is_empty() {
             self.share();
@@ -119,9 +120,9 @@ mod tests {
                         far = at;
                     }
                 }
-                prop_assert_eq!(extremes.next(mean, scale), Some(left.remove(far)));
+                prop_assert_eq!(extremes.next(mean, || scale), Some(left.remove(far)));
             }
-            prop_assert_eq!(extremes.next(0.0, 1.0), None);
+            prop_assert_eq!(extremes.next(0.0, || 1.0), None);
         }
     }
 
@@ -129,7 +130,7 @@ mod tests {
     fn equal_values_come_in_their_order() {
         let values = [2.0, -2.0, 2.0, 0.0, -2.0, 0.0];
         let mut extremes = Extremes::new(&values);
-        let order: Vec<usize> = std::iter::from_fn(|| extremes.next(0.0, 1.0)).collect();
+        let order: Vec<usize> = std::iter::from_fn(|| extremes.next(0.0, || 1.0)).collect();
         assert_eq!(order, [0, 1, 2, 4, 3, 5]);
     }
 }

@@ -138,13 +138,14 @@ fn judge_block(
     let mut position: Vec<usize> = (0..n).collect();
     let (mut ts, mut ys) = (Cow::Borrowed(t), Cow::Borrowed(y));
     let mut fit = fit(t, y, rule.order, stop)?;
-    let mut residual = residuals(&fit, &ts, &ys);
+    let mut residual = vec![0.0; n];
+    fit.residuals_long(&ts, &ys, &mut residual);
     let mut flagged = vec![false; n];
     let mut limits = vec![None; criterion.groups()];
     let mut passes = 0;
     loop {
         let survivors = Survivors { residual: &residual, position: &position, segment, zero };
-        let pass = criterion.pass(&survivors, stop)?;
+        let mut pass = criterion.pass(&survivors, stop)?;
         limits.iter_mut().zip(pass.groups).for_each(|(limit, new)| *limit = new.or(*limit));
         passes += 1;
         pass.flagged.iter().for_each(|&i| flagged[position[i]] = true);
@@ -153,15 +154,17 @@ fn judge_block(
             break;
         }
         stop.check()?;
-        position.retain(|&p| !flagged[p]);
-        ts = Cow::Owned(position.iter().map(|&p| t[p]).collect());
+        pass.flagged.sort_unstable();
+        let out = pass.flagged.as_slice();
+        rayon::join(|| remove(&mut position, out), || remove(ts.to_mut(), out));
         stop.check()?;
-        ys = Cow::Owned(position.iter().map(|&p| y[p]).collect());
+        remove(ys.to_mut(), out);
+        residual.truncate(position.len());
         if rule.refit {
             fit = self::fit(&ts, &ys, rule.order, stop)?;
         }
         stop.check()?;
-        residual = residuals(&fit, &ts, &ys);
+        fit.residuals_long(&ts, &ys, &mut residual);
     }
     let mut judged = verdicts(&fit, t, &flagged, &limits);
     // Full blocks are warned of by their settings.
@@ -176,15 +179,27 @@ fn fit(t: &[f64], y: &[f64], order: usize, stop: &Stop) -> Result<Polynomial, St
     Polynomial::fit_long(t, y, order, || stop.check())
 }
 
-fn residuals(fit: &Polynomial, t: &[f64], y: &[f64]) -> Vec<f64> {
-    t.par_iter().zip(y).with_min_len(8192).map(|(&t, &y)| fit.residual(t, y)).collect()
+/// Takes the entries at `out` (ascending) out of a list: the stretches between them move together.
+fn remove<T: Copy>(list: &mut Vec<T>, out: &[usize]) {
+    let Some(&first) = out.first() else { return };
+    let mut end = first;
+    for (k, &at) in out.iter().enumerate() {
+        let next = out.get(k + 1).copied().unwrap_or(list.len());
+        list.copy_within(at + 1..next, end);
+        end += next - at - 1;
+    }
+    list.truncate(end);
 }
 
 /// Expected value: the trend plus the mean of the last pass. Tolerance: the last limit applied.
 fn verdicts(fit: &Polynomial, t: &[f64], flagged: &[bool], limits: &[Option<Limit>]) -> Judged {
     let of = |i: usize| limits[i % limits.len()];
     let all = || (0..t.len()).into_par_iter().with_min_len(8192);
-    let expected = all().map(|i| of(i).map_or(f64::NAN, |limit| fit.at(t[i]) + limit.mean)).collect();
+    let mut expected = vec![0.0; t.len()];
+    fit.values_long(t, &mut expected);
+    expected.par_iter_mut().with_min_len(8192).enumerate().for_each(|(i, expected)| {
+        *expected = of(i).map_or(f64::NAN, |limit| *expected + limit.mean);
+    });
     let tolerance = all().map(|i| of(i).map_or(f64::NAN, |limit| limit.tolerance)).collect();
     let verdict = all()
         .map(|i| match of(i) {

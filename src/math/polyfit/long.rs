@@ -52,6 +52,47 @@ impl Polynomial {
         rest
     }
 
+    /// [`Polynomial::residual`] at many points, in parallel; all three slices are of one length.
+    pub fn residuals_long(&self, t: &[f64], y: &[f64], residual: &mut [f64]) {
+        let chunks = residual.par_chunks_mut(CHUNK).zip(t.par_chunks(CHUNK)).zip(y.par_chunks(CHUNK));
+        chunks.for_each(|((residual, t), y)| {
+            for ((residual, t), y) in residual.chunks_mut(LANES).zip(t.chunks(LANES)).zip(y.chunks(LANES)) {
+                let mut rest = [0.0; LANES];
+                rest.iter_mut().zip(y).for_each(|(rest, y)| *rest = y - self.level);
+                self.walk_lanes(t, |k, i, p| rest[i] -= self.coefficients[k] * p);
+                residual.copy_from_slice(&rest[..t.len()]);
+            }
+        });
+    }
+
+    /// [`Polynomial::at`] at many points, in parallel; both slices are of one length.
+    pub fn values_long(&self, t: &[f64], value: &mut [f64]) {
+        let chunks = value.par_chunks_mut(CHUNK).zip(t.par_chunks(CHUNK));
+        chunks.for_each(|(value, t)| {
+            for (value, t) in value.chunks_mut(LANES).zip(t.chunks(LANES)) {
+                let mut sum = [0.0; LANES];
+                self.walk_lanes(t, |k, i, p| sum[i] += self.coefficients[k] * p);
+                value.iter_mut().zip(sum).for_each(|(value, sum)| *value = self.level + sum);
+            }
+        });
+    }
+
+    /// As `walk`, for up to [`LANES`] times side by side: calls `visit` with the polynomial's index, the place of the
+    /// time and the value there.
+    #[inline]
+    fn walk_lanes(&self, t: &[f64], mut visit: impl FnMut(usize, usize, f64)) {
+        let (mut u, mut before, mut now) = ([0.0; LANES], [0.0; LANES], [1.0; LANES]);
+        u.iter_mut().zip(t).for_each(|(u, t)| *u = (t - self.center) / self.scale);
+        for k in 0..self.terms {
+            for i in 0..LANES {
+                visit(k, i, now[i]);
+                let next = (u[i] - self.a[k]) * now[i] - self.b[k] * before[i];
+                before[i] = now[i];
+                now[i] = next;
+            }
+        }
+    }
+
     /// Sums over some points: the square of polynomial `k`, its product with what the ones before it leave of the
     /// values, and its square times the abscissa.
     fn sums(&self, t: &[f64], y: &[f64], k: usize) -> [f64; 3] {
@@ -115,5 +156,22 @@ mod tests {
     #[test]
     fn a_refusal_ends_it() {
         assert_eq!(Polynomial::fit_long(&[0.0, 1.0], &[0.0, 1.0], 1, || Err("no")), Err("no"));
+    }
+
+    #[test]
+    fn many_at_a_time_are_the_same_to_the_last_bit() {
+        let n = CHUNK + 3 * LANES + 5;
+        let t: Vec<f64> = (0..n).map(|i| 1.7e9 + i as f64 * 0.1 + 0.02 * (i % 3) as f64).collect();
+        let y: Vec<f64> = (0..n).map(|i| 1e6 + (i as f64 * 12.9898).sin() * 7.0).collect();
+        for order in [0, 1, 2, 5, 8] {
+            let fit = Polynomial::fit_long(&t, &y, order, || Ok::<(), ()>(())).unwrap();
+            let (mut residual, mut value) = (vec![0.0; n], vec![0.0; n]);
+            fit.residuals_long(&t, &y, &mut residual);
+            fit.values_long(&t, &mut value);
+            for i in 0..n {
+                assert_eq!(residual[i].to_bits(), fit.residual(t[i], y[i]).to_bits(), "order {order}, {i}");
+                assert_eq!(value[i].to_bits(), fit.at(t[i]).to_bits(), "order {order}, {i}");
+            }
+        }
     }
 }

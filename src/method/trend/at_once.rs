@@ -1,10 +1,15 @@
 //! Criteria that flag everything beyond a limit at once in each pass: Wright, Chauvenet, odd-even extraction.
 
+use rayon::prelude::*;
+
 use super::{Criterion, Limit, Pass, Survivors};
 use crate::math::moments::Moments;
 use crate::math::student::normal_upper;
 use crate::method::reaches;
 use crate::stop::{Stop, Stopped};
+
+/// Residuals in one piece of work.
+const CHUNK: usize = 16_384;
 
 /// Flags every residual whose deviation from the mean of its group reaches `multiplier(n)` standard deviations.
 #[derive(Debug)]
@@ -52,13 +57,25 @@ impl<F: Fn(usize) -> f64 + Sync> Criterion for AtOnce<F> {
             }
             members.iter().map(|m| self.limit(m, survivors)).collect()
         };
-        let mut flagged = Vec::new();
-        for (i, (&v, &p)) in survivors.residual.iter().zip(survivors.position).enumerate() {
-            stop.check_at(i)?;
-            if groups[p % self.groups].is_some_and(|limit| reaches((v - limit.mean).abs(), limit.tolerance)) {
-                flagged.push(i);
-            }
-        }
+        let chunks = survivors.residual.par_chunks(CHUNK).zip(survivors.position.par_chunks(CHUNK)).enumerate();
+        let flagged: Vec<Vec<usize>> = chunks
+            .map(|(chunk, (residual, position))| {
+                stop.check()?;
+                let beyond = |limit: Option<Limit>, v: f64| {
+                    limit.is_some_and(|limit| reaches((v - limit.mean).abs(), limit.tolerance))
+                };
+                let from = chunk * CHUNK;
+                let all = residual.iter().zip(position).enumerate();
+                Ok(match groups.as_slice() {
+                    &[limit] => all.filter(|(_, (v, _))| beyond(limit, **v)).map(|(i, _)| from + i).collect(),
+                    groups => all
+                        .filter(|(_, (v, p))| beyond(groups[**p % groups.len()], **v))
+                        .map(|(i, _)| from + i)
+                        .collect(),
+                })
+            })
+            .collect::<Result<_, Stopped>>()?;
+        let flagged = flagged.concat();
         Ok(Pass { flagged, groups })
     }
 }

@@ -68,7 +68,8 @@ impl<'a> Removals<'a> {
 
     /// Takes out the most deviant and says how far it lies from the mean of those left and itself.
     pub(in crate::method) fn take(&mut self) -> Option<f64> {
-        let i = self.extremes.next(self.left.mean, self.left.deviation())?;
+        let left = self.left;
+        let i = self.extremes.next(left.mean, || left.deviation())?;
         let d = self.residual[i] - self.left.mean;
         self.taken.push(i);
         let n = self.left.count;
