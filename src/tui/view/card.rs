@@ -35,10 +35,7 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         remarks(model, &series, cursor, mark.as_ref()),
     ];
     // What all methods say goes before the neighbours.
-    lines.extend(compare::votes(model, cursor));
-    if lines.len() > 4 {
-        lines[2..].rotate_right(1);
-    }
+    lines.splice(2..2, compare::votes(model, cursor, area.width));
     // Where there is room for two lines, the neighbours go first, then the remarks.
     for (i, line) in lines.into_iter().enumerate() {
         let i = u16::try_from(i).unwrap_or(0);

@@ -3,6 +3,7 @@
 use ratatui::text::{Line, Span};
 
 use super::super::model::{Model, Pinned};
+use super::parameters::wrapped;
 use super::thousands;
 use crate::param::{Settings, Value};
 use crate::plot::Side;
@@ -28,7 +29,7 @@ pub(super) fn who(model: &Model, position: usize) -> Option<&'static str> {
 /// Rows for the parameter panel: the counts, and what A has otherwise.
 pub(super) fn rows(model: &Model) -> Option<Vec<String>> {
     let pinned = model.state().pinned.as_deref()?;
-    let mut rows = vec![String::new(), "A is pinned, B goes on; g b back to A".to_owned()];
+    let mut rows = vec![String::new(), "A is pinned; g b goes back to it".to_owned()];
     if let Some(sides) = &pinned.sides {
         let [a, b, both] = sides.counts().map(thousands);
         rows.push(format!("A only {a}   B only {b}   both {both}"));
@@ -66,9 +67,10 @@ fn differences(model: &Model, pinned: &Pinned) -> Vec<String> {
     rows
 }
 
-/// How many methods flag a sample, and which, for the card.
-pub(super) fn votes(model: &Model, position: usize) -> Option<Line<'static>> {
-    let ballot = &model.state().consensus.as_deref()?.ballot;
+/// How many methods flag a sample, and which, for the card: up to two lines.
+pub(super) fn votes(model: &Model, position: usize, width: u16) -> Vec<Line<'static>> {
+    let Some(consensus) = model.state().consensus.as_deref() else { return Vec::new() };
+    let ballot = &consensus.ballot;
     let (votes, of) = (ballot.votes(position), ballot.methods());
     let theme = &model.theme;
     let style = if votes >= ballot.half() { theme.over } else { theme.text };
@@ -79,10 +81,15 @@ pub(super) fn votes(model: &Model, position: usize) -> Option<Line<'static>> {
         (voters, others) if voters.len() <= others.len() => format!(": {}", voters.join(", ")),
         (_, others) => format!(": all but {}", others.join(", ")),
     };
-    Some(Line::from(vec![
-        Span::styled(format!(" {votes} of {of} methods flag it"), style),
-        Span::styled(names, theme.dim),
-    ]))
+    let head = format!("{votes} of {of} methods flag it");
+    let lines = wrapped(&format!("{head}{names}"), usize::from(width).saturating_sub(3));
+    let line = |(i, text): (usize, String)| match text.strip_prefix(&head) {
+        Some(rest) if i == 0 => {
+            Line::from(vec![Span::styled(format!(" {head}"), style), Span::styled(rest.to_owned(), theme.dim)])
+        }
+        _ => Line::styled(format!(" {text}"), theme.dim),
+    };
+    lines.into_iter().take(2).enumerate().map(line).collect()
 }
 
 /// The heading of the picture of all methods: how far they have been asked, the votes, and those at the cursor.
