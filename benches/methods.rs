@@ -1,13 +1,16 @@
-//! Cost of every method at its defaults, and of the sliding ones at other windows: one channel, one segment, a
-//! parabola with unit noise and 1 % outliers. `cargo bench --bench methods -- hampel` measures one.
+//! Cost of every method at its defaults, of the jobs that have a budget, and of the sliding ones at other windows: one
+//! channel, one segment, a parabola with unit noise and 1 % outliers. `cargo bench --bench methods -- hampel` measures
+//! one, `-- budget` those with a budget. The record has been loaded: its nominal interval is known.
 
 use std::hint::black_box;
 use std::time::Duration;
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use wildpoint::experiment::Random;
 use wildpoint::method::{METHODS, Method, Rate, judge_channel};
 use wildpoint::param::{Settings, Value};
+use wildpoint::repair::{self, Damage};
 use wildpoint::stop::Stop;
 use wildpoint::track::Series;
 
@@ -31,31 +34,107 @@ impl Record {
         Self { t, y, rate }
     }
 
-    fn judge(&self, method: &dyn Method, settings: &Settings) -> usize {
-        let series = Series::new(&self.t, &self.y);
+    fn series(&self) -> Series<'_> {
+        Series::new(&self.t, &self.y)
+    }
+
+    fn judge(&self, series: &Series<'_>, method: &dyn Method, settings: &Settings) -> usize {
         let rate = Rate { t: &self.t, y: &self.rate };
-        judge_channel(method, &series, Some(rate), settings, &Stop::never()).map_or(0, |j| j.verdict.len())
+        judge_channel(method, series, Some(rate), settings, &Stop::never()).map_or(0, |j| j.verdict.len())
     }
 }
 
 fn defaults(criterion: &mut Criterion) {
     for n in [100_000, 1_000_000] {
         let record = Record::new(n);
+        let series = record.series();
         let mut group = criterion.benchmark_group("method at its defaults");
         group.throughput(Throughput::Elements(n as u64));
         for method in METHODS {
             let settings = Settings::defaults(method.about().params);
             group.bench_function(BenchmarkId::new(method.about().id, n), |b| {
-                b.iter(|| black_box(record.judge(*method, &settings)));
+                b.iter(|| black_box(record.judge(&series, *method, &settings)));
             });
         }
         group.finish();
     }
 }
 
+/// Settings that differ from the defaults.
+type Changes = &'static [(&'static str, &'static str)];
+
+/// What a plain loop of the literature does: no baseline, no pooled floor, no feedback.
+const PLAIN: Changes = &[("detrend", "off"), ("noise_floor", "off"), ("feedback", "false")];
+
+/// Jobs with a budget that are no method at its defaults: method, window, settings that differ, their name.
+const BUDGETS: &[(&str, &str, Changes, &str)] = &[
+    ("hampel", "501", &[], "hampel, window 501"),
+    ("median-window", "11", PLAIN, "median-window, window 11, plain"),
+    ("mean-window", "11", PLAIN, "mean-window, window 11, plain"),
+    ("poly-window", "21", &[], "poly-window, window 21"),
+    ("poly-window", "1001", &[], "poly-window, window 1001"),
+    ("matched", "31", &[], "matched, window 31"),
+];
+
+fn budgets(criterion: &mut Criterion) {
+    let n = 1_000_000;
+    let record = Record::new(n);
+    let series = record.series();
+    let mut group = criterion.benchmark_group("budget");
+    group.throughput(Throughput::Elements(n as u64));
+    for (id, window, changes, name) in BUDGETS {
+        let Some(method) = METHODS.iter().find(|m| m.about().id == *id) else { continue };
+        let mut settings = Settings::defaults(method.about().params);
+        let rms = [("window", *window), ("scale", if *id == "mean-window" { "rms" } else { "mad" })];
+        for (key, value) in
+            rms.iter().chain(*changes).filter(|(key, _)| settings.get(key).is_some()).collect::<Vec<_>>()
+        {
+            settings.set_text(id, key, value).unwrap_or_else(|e| panic!("{id}: {e}"));
+        }
+        group.bench_function(BenchmarkId::new(*name, n), |b| {
+            b.iter(|| black_box(record.judge(&series, *method, &settings)));
+        });
+    }
+    infill(&mut group, &record);
+    group.finish();
+}
+
+/// The interpolating repairs of 1 % of the samples, every tenth of them a patch of five.
+fn infill(group: &mut BenchmarkGroup<'_, WallTime>, record: &Record) {
+    let n = record.t.len();
+    let starts = (50..n - 50).step_by(140).enumerate();
+    let outliers: Vec<usize> = starts.flat_map(|(i, at)| at..at + if i % 10 == 0 { 5 } else { 1 }).collect();
+    let nothing = vec![f64::NAN; outliers.len()];
+    let damage = Damage { t: &record.t, y: &record.y, outliers: &outliers, own: &nothing, expected: &nothing };
+    for id in ["polynomial", "spline", "linear"] {
+        let mut settings = Settings::defaults(repair::PARAMS);
+        settings.set_text("repair", "method", id).unwrap_or_else(|e| panic!("{id}: {e}"));
+        group.bench_function(BenchmarkId::new(format!("infill, {id}"), n), |b| {
+            b.iter(|| black_box(repair::repair(&damage, &settings).len()));
+        });
+    }
+}
+
+/// A few methods on ten million samples: their cost must grow no more than in proportion.
+fn long(criterion: &mut Criterion) {
+    let n = 10_000_000;
+    let record = Record::new(n);
+    let series = record.series();
+    let mut group = criterion.benchmark_group("method at its defaults");
+    group.throughput(Throughput::Elements(n as u64));
+    for method in METHODS.iter().filter(|m| ["hampel", "mean-window", "five-point"].contains(&m.about().id)) {
+        let settings = Settings::defaults(method.about().params);
+        group.bench_function(BenchmarkId::new(method.about().id, n), |b| {
+            b.iter(|| black_box(record.judge(&series, *method, &settings)));
+        });
+    }
+    group.finish();
+}
+
 fn windows(criterion: &mut Criterion) {
     let n = 1_000_000;
     let record = Record::new(n);
+    let series = record.series();
     let mut group = criterion.benchmark_group("window");
     group.throughput(Throughput::Elements(n as u64));
     for method in METHODS.iter().filter(|m| m.about().params.iter().any(|p| p.key == "window")) {
@@ -65,7 +144,7 @@ fn windows(criterion: &mut Criterion) {
             // Some windows end earlier; those lengths are left out.
             if settings.set(id, "window", Value::Whole(window)).is_ok() {
                 group.bench_function(BenchmarkId::new(id, window), |b| {
-                    b.iter(|| black_box(record.judge(*method, &settings)));
+                    b.iter(|| black_box(record.judge(&series, *method, &settings)));
                 });
             }
         }
@@ -79,6 +158,6 @@ criterion_group! {
         .sample_size(10)
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_secs(1));
-    targets = defaults, windows
+    targets = defaults, budgets, windows, long
 }
 criterion_main!(benches);

@@ -1,10 +1,11 @@
 //! Difference-assisted median: a patch shows as one jump in and one jump out, which are taken out of the differences of
 //! a median filter's output \[001\].
 
-use super::window::{self, Edge, Windows};
+use rayon::prelude::*;
+
+use super::window::{self, CHUNK, Edge, Windows};
 use super::{About, Judged, Method, Own, Segment, Verdict, exceeds, reaches, shared};
 use crate::math::order::{MAD_TO_SIGMA, median_of_many};
-use crate::math::sorted_window::SortedWindow;
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
@@ -103,32 +104,45 @@ fn judge(
 ) -> Result<Judged, Stopped> {
     let n = segment.len();
     let level = window::level(segment.y);
-    let mut x: Vec<f64> = segment.y.iter().map(|y| y - level).collect();
+    let mut x: Vec<f64> = in_parallel(n, |i| segment.y[i] - level);
     let judged_ones = smoother.width / 2..n - smoother.width / 2;
-    let mut judged = Judged::unchecked(n);
-    judged.verdict[judged_ones.clone()].fill(Verdict::Normal);
-    judged.own = vec![f64::NAN; n];
+    let mut verdict = vec![Verdict::Unchecked; n];
+    verdict[judged_ones.clone()].fill(Verdict::Normal);
+    let mut own = in_parallel(n, |_| f64::NAN);
     let mut pass = 0;
     loop {
         let z = smoother.smooth(&x)?;
         let center = median_of_many(n, |i| x[i] - z[i]);
         let tolerance = k * scale(MAD_TO_SIGMA * median_of_many(n, |i| (x[i] - z[i] - center).abs()));
-        let mut new = false;
-        for i in judged_ones.clone() {
-            if reaches((x[i] - z[i]).abs(), tolerance) {
-                new |= judged.verdict[i] == Verdict::Normal;
-                judged.verdict[i] = Verdict::Outlier;
-                x[i] = z[i];
-                judged.own[i] = z[i] + level;
+        smoother.stop.check()?;
+        let samples = verdict[judged_ones.clone()].par_iter_mut().zip(&mut x[judged_ones.clone()]);
+        let samples = samples.zip(&mut own[judged_ones.clone()]).zip(&z[judged_ones.clone()]);
+        let flag = |(((verdict, x), own), z): (((&mut Verdict, &mut f64), &mut f64), &f64)| {
+            if !reaches((*x - z).abs(), tolerance) {
+                return false;
             }
-        }
+            let new = *verdict == Verdict::Normal;
+            (*verdict, *x, *own) = (Verdict::Outlier, *z, z + level);
+            new
+        };
+        let new = samples.with_min_len(CHUNK).map(flag).reduce(|| false, |a, b| a | b);
         pass += 1;
         if !new || pass == max_passes {
-            judged.expected = z.iter().map(|z| z + level).collect();
-            judged.tolerance.fill(tolerance);
-            return Ok(judged);
+            let expected = in_parallel(n, |i| z[i] + level);
+            return Ok(Judged {
+                verdict,
+                expected,
+                tolerance: in_parallel(n, |_| tolerance),
+                own,
+                ..Judged::default()
+            });
         }
     }
+}
+
+/// `value(0 .. n)`.
+fn in_parallel(n: usize, value: impl Fn(usize) -> f64 + Sync + Send) -> Vec<f64> {
+    (0..n).into_par_iter().with_min_len(CHUNK).map(value).collect()
 }
 
 /// Steps 1 to 3 of the method.
@@ -144,31 +158,31 @@ struct Smoother<'a> {
 impl Smoother<'_> {
     fn smooth(&self, x: &[f64]) -> Result<Vec<f64>, Stopped> {
         let m = self.medians(x, self.width)?;
-        let d: Vec<f64> = m.windows(2).map(|m| m[1] - m[0]).collect();
-        let typical = self.medians(&d, self.width)?;
+        let n = x.len();
+        let d = in_parallel(n - 1, |i| m[i + 1] - m[i]);
+        let mut steps = self.medians(&d, self.width)?;
+        if let Some(gate) = self.gate {
+            let both = steps.par_iter_mut().zip(&d).with_min_len(CHUNK);
+            both.for_each(|(step, &d)| *step = if exceeds((d - *step).abs(), gate) { *step } else { d });
+        }
+        self.stop.check()?;
+        let mut z = Vec::with_capacity(n);
         let mut height = m[0];
-        let mut z = vec![height];
-        z.extend(d.iter().zip(&typical).map(|(&d, &typical)| {
-            let keep = self.gate.is_some_and(|gate| !exceeds((d - typical).abs(), gate));
-            height += if keep { d } else { typical };
+        z.push(height);
+        z.extend(steps.iter().map(|step| {
+            height += step;
             height
         }));
         if self.gate.is_some() {
-            let rest: Vec<f64> = m.iter().zip(&z).map(|(m, z)| m - z).collect();
-            z.iter_mut().zip(self.medians(&rest, self.drift)?).for_each(|(z, drift)| *z += drift);
+            let drift = self.medians(&in_parallel(n, |i| m[i] - z[i]), self.drift)?;
+            z.par_iter_mut().zip(&drift).with_min_len(CHUNK).for_each(|(z, drift)| *z += drift);
         }
         Ok(z)
     }
 
     /// The sliding median, with the windows of section 3 cut at the ends.
     fn medians(&self, x: &[f64], width: usize) -> Result<Vec<f64>, Stopped> {
-        let windows = Windows::new(x.len(), width, Edge::Shrink);
-        let mut medians = vec![0.0; x.len()];
-        window::sweep(&mut medians, self.stop, SortedWindow::new, |window, c| {
-            window.move_to(x, windows.range(c));
-            window.median()
-        })?;
-        Ok(medians)
+        window::medians(x, &Windows::new(x.len(), width, Edge::Shrink), self.stop)
     }
 }
 

@@ -3,7 +3,12 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use super::verdict::{Direction, Restart, Verdict, reaches};
+
+/// Samples in one piece of parallel work.
+const CHUNK: usize = 8192;
 
 /// What a method says of a segment: one entry per sample, in order.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -61,18 +66,19 @@ impl Judged {
 
     /// Judges again from [`Judged::scale`] with another multiplier.
     pub fn gate(&mut self, y: &[f64], k: f64) {
-        self.tolerance.clear();
-        self.tolerance.extend(self.scale.iter().map(|s| k * s));
-        self.verdict.clear();
-        self.verdict.extend(y.iter().zip(&self.expected).zip(&self.tolerance).map(|((&y, &p), &h)| {
-            if p.is_nan() {
+        let said = |((&p, &scale), &y): ((&f64, &f64), &f64)| {
+            let tolerance = k * scale;
+            let verdict = if p.is_nan() {
                 Verdict::Unchecked
-            } else if reaches((y - p).abs(), h) {
+            } else if reaches((y - p).abs(), tolerance) {
                 Verdict::Outlier
             } else {
                 Verdict::Normal
-            }
-        }));
+            };
+            (tolerance, verdict)
+        };
+        let scores = self.expected.par_iter().zip(&self.scale).zip(y).with_min_len(CHUNK);
+        scores.map(said).unzip_into_vecs(&mut self.tolerance, &mut self.verdict);
     }
 
     /// The same scores gated with another multiplier.

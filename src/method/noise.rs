@@ -3,14 +3,20 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use super::{exceeds, zero_scale};
-use crate::math::order::{MAD_TO_SIGMA, median_in_place};
+use crate::math::movement::smallest_movement;
+use crate::math::order::{MAD_TO_SIGMA, Middle, median_of_many, median_of_smallest};
 use crate::math::{difference, smoothing};
 use crate::param::{Choice, Kind, Settings};
 use crate::track::Series;
 
 /// With fewer differences than this in a segment, those of all segments of the channel are pooled.
 const ENOUGH: usize = 50;
+
+/// Differences in one piece of parallel work.
+const CHUNK: usize = 16_384;
 
 /// The deviation of a third difference of white noise of deviation 1: sqrt(1 + 9 + 9 + 1).
 const THIRD: f64 = 4.472_135_954_999_58;
@@ -81,7 +87,7 @@ pub fn by_spline(series: &Series<'_>, segments: &[Range<usize>]) -> Vec<f64> {
         let (t, y) = (&series.t[segment.clone()], &series.y[segment.clone()]);
         smoothing::residual_deviation(t, y, series.interval)
     };
-    segments.iter().map(of).collect()
+    segments.par_iter().map(of).collect()
 }
 
 /// The floor for quantised data: half the smallest non-zero step or third difference between neighbours.
@@ -90,18 +96,9 @@ pub fn auto_floor(series: &Series<'_>, segments: &[Range<usize>]) -> Vec<f64> {
     // For each segment: how many third differences it has, and its smallest movement.
     let of = |segment: &Range<usize>| {
         let y = &series.y[segment.clone()];
-        let zero = zero_scale(y);
-        let mut smallest = f64::INFINITY;
-        let mut take = |d: f64| {
-            if d > zero && d < smallest {
-                smallest = d;
-            }
-        };
-        y.windows(2).for_each(|w| take((w[1] - w[0]).abs()));
-        y.windows(4).for_each(|w| take(((w[0] - w[3]) - 3.0 * (w[1] - w[2])).abs()));
-        (y.len().saturating_sub(3), smallest)
+        (y.len().saturating_sub(3), smallest_movement(y, zero_scale(y)))
     };
-    let each: Vec<(usize, f64)> = segments.iter().map(of).collect();
+    let each: Vec<(usize, f64)> = segments.par_iter().map(of).collect();
     let all = each.iter().map(|e| e.1).fold(f64::INFINITY, f64::min);
     let half = |smallest: f64| if smallest.is_finite() { smallest / 2.0 } else { 0.0 };
     each.into_iter().map(|(n, own)| half(if n < ENOUGH { all } else { own })).collect()
@@ -113,21 +110,19 @@ fn spread(differences: &mut [f64]) -> f64 {
     if differences.is_empty() {
         return 0.0;
     }
-    let center = median_in_place(differences);
-    for d in differences.iter_mut() {
-        *d = (*d - center).abs();
-    }
-    let mut scale = MAD_TO_SIGMA * median_in_place(differences);
+    let n = differences.len();
+    let center = median_of_many(n, |i| differences[i]);
+    differences.par_iter_mut().with_min_len(CHUNK).for_each(|d| *d = (*d - center).abs());
+    let median = median_of_many(n, |i| differences[i]);
+    let mut scale = MAD_TO_SIGMA * median;
+    // Without the tails the median is a little less: those values are put in order once.
+    let middle = Middle::of(differences, 0.9 * median..=median);
     for _ in 0..20 {
-        // What lies within goes to the front; the limit is taken anew from all of them each time.
-        let mut within = 0;
-        for i in 0..differences.len() {
-            if !exceeds(differences[i], 3.0 * scale) {
-                differences.swap(within, i);
-                within += 1;
-            }
-        }
-        let next = MAD_TO_SIGMA * median_in_place(&mut differences[..within]);
+        // What lies within are the smallest of all; the limit is taken anew from all of them each time.
+        let within = |d: &[f64]| d.iter().filter(|d| !exceeds(**d, 3.0 * scale)).count();
+        let count = differences.par_chunks(CHUNK).map(within).sum();
+        let next = middle.median_of_smallest(count);
+        let next = MAD_TO_SIGMA * next.unwrap_or_else(|| median_of_smallest(n, count, |i| differences[i]));
         // Standing still is meant literally: the same subset has the same median, bit for bit.
         #[expect(clippy::float_cmp, reason = "a fixed point of a selection")]
         if next == scale {
@@ -138,32 +133,46 @@ fn spread(differences: &mut [f64]) -> f64 {
     scale
 }
 
+/// The third differences over the quadruples of a segment without a lost sample.
 fn third_differences(series: &Series<'_>, segment: &Range<usize>) -> Vec<f64> {
     let (t, y) = (&series.t[segment.clone()], &series.y[segment.clone()]);
-    let mut whole = 0;
-    let mut differences = Vec::with_capacity(y.len());
-    for i in 1..y.len() {
-        // Steps without a loss that end at sample i.
-        whole = if series.lost_before(segment.start + i) == 0 { whole + 1 } else { 0 };
-        if whole >= 3 {
-            let at = i - 3;
-            differences
-                .push(difference::third([t[at], t[at + 1], t[at + 2], t[i]], [y[at], y[at + 1], y[at + 2], y[i]]));
-        }
+    let losses = series.losses(segment.clone(), 0);
+    // A stretch without a loss has one for each of its samples but the first three.
+    let begins = std::iter::once(0).chain(losses.iter().map(|at| at - segment.start));
+    let ends = losses.iter().map(|at| at - segment.start).chain(std::iter::once(y.len()));
+    let stretches: Vec<Range<usize>> =
+        begins.zip(ends).filter(|(begin, end)| begin + 3 < *end).map(|(b, e)| b..e).collect();
+    let mut differences = vec![0.0; stretches.iter().map(|stretch| stretch.len() - 3).sum()];
+    let mut rest = differences.as_mut_slice();
+    for stretch in stretches {
+        let (own, others) = rest.split_at_mut(stretch.len() - 3);
+        rest = others;
+        own.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| {
+            let at = stretch.start + chunk * CHUNK;
+            let ([t0, t1, t2, t3], [y0, y1, y2, y3]) = (four(&t[at..], out.len()), four(&y[at..], out.len()));
+            for (i, d) in out.iter_mut().enumerate() {
+                *d = difference::third([t0[i], t1[i], t2[i], t3[i]], [y0[i], y1[i], y2[i], y3[i]]);
+            }
+        });
     }
     differences
+}
+
+/// The `n` values from each of the first four on, so that quadruples may be handled with vector instructions.
+fn four(x: &[f64], n: usize) -> [&[f64]; 4] {
+    std::array::from_fn(|i| &x[i..i + n])
 }
 
 /// One figure per segment from its differences, or from those of all segments where it has too few.
 fn pooled(
     segments: &[Range<usize>],
-    differences: impl Fn(&Range<usize>) -> Vec<f64>,
-    figure: impl Fn(&mut [f64]) -> f64,
+    differences: impl Fn(&Range<usize>) -> Vec<f64> + Sync,
+    figure: impl Fn(&mut [f64]) -> f64 + Sync,
 ) -> Vec<f64> {
-    let mut each: Vec<Vec<f64>> = segments.iter().map(differences).collect();
+    let mut each: Vec<Vec<f64>> = segments.par_iter().map(&differences).collect();
     let few = each.iter().any(|d| d.len() < ENOUGH);
     let all = if few { figure(&mut each.concat()) } else { 0.0 };
-    each.iter_mut().map(|d| if d.len() < ENOUGH { all } else { figure(d) }).collect()
+    each.par_iter_mut().map(|d| if d.len() < ENOUGH { all } else { figure(d) }).collect()
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::noise;
+use crate::math::movement;
 use crate::track::Series;
 
 /// What a method sees: the present samples of one segment, never empty.
@@ -81,5 +82,5 @@ impl<'a> Segment<'a> {
 /// A scale of at most this counts as zero among such values: what rounding alone leaves of an exact line.
 #[must_use]
 pub fn zero_scale(y: &[f64]) -> f64 {
-    8.0 * f64::EPSILON * y.iter().fold(0.0_f64, |m, v| m.max(v.abs()))
+    8.0 * f64::EPSILON * movement::largest(y)
 }

@@ -44,17 +44,16 @@ impl Method for Template {
         // replaced sample differs from it.
         let mut residual = vec![f64::NAN; n];
         window::sweep(&mut residual, stop, State::default, |state, i| lines.residual(state, i))?;
-        let mut figures = vec![[0.0; 2]; n];
-        window::sweep(&mut figures, stop, State::default, |state, i| {
-            [segment.y[i] - residual[i], lines.scale(state, &residual, i)]
-        })?;
+        let mut scale = vec![0.0; n];
+        window::sweep(&mut scale, stop, State::default, |state, i| lines.scale(state, &residual, i))?;
         let pooled = settings.word(shared::NOISE_FLOOR.key) == "pooled";
-        let limits = Limits::new(pooled.then_some(&figures[2..]), segment);
+        let limits = Limits::new(pooled.then_some(&scale[2..]), segment);
         let k = settings.real(shared::K.key);
         if window::has_feedback(settings) {
-            return lines.feed_back(&mut residual, &figures, &limits, k, stop);
+            return lines.feed_back(&mut residual, &scale, &limits, k, stop);
         }
-        let (expected, scale) = figures.iter().map(|[p, s]| (*p, limits.bound(*s))).unzip();
+        let expected = residual.iter().zip(segment.y).map(|(r, y)| y - r).collect();
+        scale.iter_mut().for_each(|s| *s = limits.bound(*s));
         let mut judged = Judged::gated(segment.y, expected, scale, k);
         judged.scale[..2].fill(f64::NAN);
         judged.tolerance[..2].fill(f64::NAN);
@@ -135,11 +134,11 @@ impl Lines {
     }
 
     /// One pass in which a flagged sample is replaced by its expected value before the window moves on. `residual`
-    /// and `figures` are those of the data as given.
+    /// and `scales` are those of the data as given.
     fn feed_back(
         &mut self,
         residual: &mut [f64],
-        figures: &[[f64; 2]],
+        scales: &[f64],
         limits: &Limits<'_>,
         k: f64,
         stop: &Stop,
@@ -156,11 +155,8 @@ impl Lines {
                 residual[i] = self.residual(&mut state, i);
                 changed = Some(i);
             }
-            let scale = if changed.is_some_and(|last| last >= begin) {
-                self.scale(&mut state, residual, i)
-            } else {
-                figures[i][1]
-            };
+            let scale =
+                if changed.is_some_and(|last| last >= begin) { self.scale(&mut state, residual, i) } else { scales[i] };
             let tolerance = k * limits.bound(scale);
             let x = self.points[i][1] - residual[i];
             judged.expected[i] = x + self.level;

@@ -8,13 +8,17 @@ use crate::param::Settings;
 use crate::stop::{Stop, Stopped};
 
 mod baseline;
+mod figures;
 mod geometry;
 mod polynomial;
+mod sorted;
 mod statistics;
 mod warning;
 
+use figures::{Figures, figures};
 pub(super) use geometry::{Edge, Windows, level};
 pub(super) use polynomial::{PolyRule, judge as judge_polynomials};
+pub(super) use sorted::medians;
 use statistics::Statistics;
 pub(super) use warning::{of_reach, warnings};
 
@@ -121,29 +125,24 @@ pub(super) fn judge(rule: &Rule, segment: &Segment<'_>, stop: &Stop) -> Result<J
     // A level and the slope are taken off first and added again at the end: what is left is as small as the data
     // allow, whatever their offset.
     let level = level(segment.y);
-    let mut base = vec![0.0; n];
-    if rule.detrend {
-        baseline::add_slope(segment, rule.width, &mut base, stop)?;
-    }
+    let slope = if rule.detrend { baseline::slope(segment, rule.width, stop)? } else { None };
+    let base = |c: usize| slope.as_ref().map_or(0.0, |slope| slope[c]);
     let windows = Windows::new(n, rule.width, rule.edge);
-    let mut x = windows.padded(segment.y.iter().zip(&base).map(|(y, b)| y - level - b), -level);
-    let mut figures = vec![[0.0; 2]; n];
-    let state = || Statistics::new(rule);
-    sweep(&mut figures, stop, state, |s, c| {
-        let range = windows.range(c);
-        s.move_to(&x, range.clone(), range.start);
-        s.figures()
-    })?;
+    let samples = (0..n).into_par_iter().with_min_len(CHUNK).map(|c| segment.y[c] - level - base(c));
+    let mut x = windows.padded(samples.collect(), -level);
+    let mut figures = figures(rule, &x, &windows, stop)?;
+    let limits = Limits::new(rule.pooled.then_some(&figures.scale[..]), segment);
     stop.check()?;
-    let limits = Limits::new(rule.pooled.then_some(&figures[..]), segment);
     if rule.feedback {
-        base.iter_mut().for_each(|b| *b += level);
-        return feed_back(rule, segment, &windows, &mut x, &base, &figures, &limits, stop);
+        return feed_back(rule, &windows, &mut x, |c| base(c) + level, &figures, &limits, stop);
     }
-    let expected = figures.iter().zip(&base).map(|(f, b)| f[0] + b + level).collect();
-    let scale = figures.iter().map(|f| limits.bound(f[1])).collect();
+    let both = figures.expected.par_iter_mut().zip(&mut figures.scale).with_min_len(CHUNK).enumerate();
+    both.for_each(|(c, (expected, scale))| {
+        *expected = *expected + base(c) + level;
+        *scale = limits.bound(*scale);
+    });
     stop.check()?;
-    Ok(Judged::gated(segment.y, expected, scale, rule.k))
+    Ok(Judged::gated(segment.y, figures.expected, figures.scale, rule.k))
 }
 
 /// The lower bounds on a window's scale.
@@ -155,9 +154,9 @@ pub(super) struct Limits<'a> {
 }
 
 impl<'a> Limits<'a> {
-    /// With the pooled floor, the median scale of all windows on the data as given, when their figures are there.
-    pub(super) fn new(figures: Option<&[[f64; 2]]>, segment: &Segment<'a>) -> Self {
-        let pooled = figures.map_or(0.0, |figures| median_of_many(figures.len(), |i| figures[i][1]).max(0.0));
+    /// With the pooled floor, the median of the scales of all windows on the data as given, when they are there.
+    pub(super) fn new(scales: Option<&[f64]>, segment: &Segment<'a>) -> Self {
+        let pooled = scales.map_or(0.0, |scales| median_of_many(scales.len(), |i| scales[i]).max(0.0));
         Self { segment: *segment, zero: segment.zero(), pooled }
     }
 
@@ -170,18 +169,16 @@ impl<'a> Limits<'a> {
 
 /// One pass in which a flagged sample is replaced by its expected value before the window moves on. Windows without
 /// a replaced sample have been measured already.
-#[expect(clippy::too_many_arguments, reason = "the stages of one computation, each handed on once")]
 fn feed_back(
     rule: &Rule,
-    segment: &Segment<'_>,
     windows: &Windows,
     x: &mut [f64],
-    base: &[f64],
-    figures: &[[f64; 2]],
+    base: impl Fn(usize) -> f64,
+    figures: &Figures,
     limits: &Limits<'_>,
     stop: &Stop,
 ) -> Result<Judged, Stopped> {
-    let n = segment.len();
+    let n = windows.len();
     let mut judged = Judged { verdict: vec![Verdict::Normal; n], ..Judged::default() };
     judged.expected.reserve_exact(n);
     judged.tolerance.reserve_exact(n);
@@ -195,10 +192,10 @@ fn feed_back(
             statistics.move_to(x, range.clone(), windows.center(c));
             statistics.figures()
         } else {
-            figures[c]
+            [figures.expected[c], figures.scale[c]]
         };
         let tolerance = rule.k * limits.bound(scale);
-        judged.expected.push(p + base[c]);
+        judged.expected.push(p + base(c));
         judged.tolerance.push(tolerance);
         let old = x[windows.center(c)];
         if reaches((old - p).abs(), tolerance) {

@@ -3,7 +3,12 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use super::{Channel, TimeAxis};
+
+/// Steps in one piece of parallel work.
+const CHUNK: usize = 16_384;
 
 /// The samples of a channel that have both a time and a value, in order. Methods, repairs and plots work on
 /// positions in this list; [`Series::row`] leads back to the row of the file.
@@ -134,18 +139,34 @@ impl<'a> Series<'a> {
         if position == 0 { 0 } else { lost_samples(self.t[position] - self.t[position - 1], self.interval) }
     }
 
+    /// Positions inside `range`, but not its first, before which more than `most` samples are lost, ascending.
+    #[must_use]
+    pub fn losses(&self, range: Range<usize>, most: usize) -> Vec<usize> {
+        let steps = self.t.get(range.clone()).unwrap_or_default();
+        let piece = |chunk: usize| {
+            let begin = chunk * CHUNK;
+            let t = &steps[begin..(begin + CHUNK + 1).min(steps.len())];
+            // Whether there is one is asked of all first, without a branch: in most pieces there is none.
+            let lost = |w: &[f64]| lost_samples(w[1] - w[0], self.interval) > most;
+            if !t.windows(2).fold(false, |any, w| any | lost(w)) {
+                return Vec::new();
+            }
+            let at = (range.start + begin + 1..).zip(t.windows(2));
+            at.filter(|(_, w)| lost(w)).map(|(position, _)| position).collect()
+        };
+        let pieces: Vec<Vec<usize>> =
+            (0..steps.len().saturating_sub(1).div_ceil(CHUNK)).into_par_iter().map(piece).collect();
+        pieces.concat()
+    }
+
     /// The stretches between cuts: a cut lies wherever more than `max_gap` samples are lost in a row (none: never).
     #[must_use]
     pub fn segments(&self, max_gap: Option<usize>) -> Vec<Range<usize>> {
         let mut segments = Vec::new();
         let mut start = 0;
-        if let Some(max_gap) = max_gap {
-            for i in 1..self.len() {
-                if self.lost_before(i) > max_gap {
-                    segments.push(start..i);
-                    start = i;
-                }
-            }
+        for cut in max_gap.map_or_else(Vec::new, |max_gap| self.losses(0..self.len(), max_gap)) {
+            segments.push(start..cut);
+            start = cut;
         }
         if start < self.len() {
             segments.push(start..self.len());
@@ -163,8 +184,8 @@ pub fn lost_samples(dt: f64, interval: f64) -> usize {
     if dt < 1.49 * interval {
         return 0;
     }
-    let steps = (dt / interval + 0.5 + 1e-6).floor();
-    // A cast from float saturates, and takes NaN (fewer than two samples) to 0.
+    let steps = dt / interval + 0.5 + 1e-6;
+    // A cast from float rounds down, saturates, and takes NaN (fewer than two samples) to 0.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates as wanted")]
     let steps = steps as usize;
     steps.saturating_sub(1)
@@ -206,6 +227,22 @@ mod tests {
         assert_eq!(s.segments(Some(2)), [0..7, 7..8]);
         assert_eq!(s.segments(Some(1)), [0..4, 4..7, 7..8]);
         assert_eq!(s.segments(None).as_slice(), std::slice::from_ref(&(0..8)));
+    }
+
+    #[test]
+    fn cuts_are_found_where_pieces_meet_as_anywhere() {
+        let gaps = [1, 777, CHUNK - 1, CHUNK, CHUNK + 1, 2 * CHUNK, 40_000 - 1];
+        let mut t = Vec::new();
+        let mut now = 0.0;
+        for i in 0..40_000 {
+            now += if gaps.contains(&i) { 9.0 } else { 1.0 };
+            t.push(now);
+        }
+        let y = vec![0.0; t.len()];
+        let s = Series::new(&t, &y);
+        assert_eq!(s.losses(0..t.len(), 5), gaps);
+        assert_eq!(s.losses(777..CHUNK + 1, 5), [CHUNK - 1, CHUNK]);
+        assert_eq!(s.segments(Some(5)).len(), gaps.len() + 1);
     }
 
     #[test]

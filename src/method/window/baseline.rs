@@ -1,16 +1,20 @@
 //! The local-slope baseline: deviations from a window's middle would measure the track's slope, not its noise.
 
-use super::{CHUNK, sweep};
+use rayon::prelude::*;
+
+use super::CHUNK;
+use super::sorted::whole;
+use crate::math::sorted_four::SortedFour;
 use crate::math::sorted_window::SortedWindow;
 use crate::method::Segment;
 use crate::stop::{Stop, Stopped};
 
-/// Adds the integral of the local slope (the running median of slopes over a third of `width`) to `base`, which has
-/// one value per sample. Segments under five samples are left alone. "`detrend = slope`" of section 3.
-pub(super) fn add_slope(segment: &Segment<'_>, width: usize, base: &mut [f64], stop: &Stop) -> Result<(), Stopped> {
+/// The integral of the local slope (the running median of slopes over a third of `width`), one value per sample; none
+/// for segments under five samples, which are left alone. "`detrend = slope`" of section 3.
+pub(super) fn slope(segment: &Segment<'_>, width: usize, stop: &Stop) -> Result<Option<Vec<f64>>, Stopped> {
     let (t, y, n) = (segment.t, segment.y, segment.len());
     if n < 5 {
-        return Ok(());
+        return Ok(None);
     }
     let lag = (width / 3).max(1).min(n - 2);
     let count = n - lag;
@@ -18,25 +22,25 @@ pub(super) fn add_slope(segment: &Segment<'_>, width: usize, base: &mut [f64], s
     let last = count - medians;
     // Windows near the ends are the same one, so a window is worked out once for each place it begins at.
     let mut slopes = vec![0.0; last + 1];
-    let piece = |chunk: usize| {
-        let end = (chunk * CHUNK + CHUNK + medians - 1).min(count);
-        (chunk * CHUNK..end).map(|j| (y[j + lag] - y[j]) / (t[j + lag] - t[j])).collect::<Vec<f64>>()
-    };
-    let state = || (SortedWindow::new(), None);
-    sweep(&mut slopes, stop, state, |(window, lagged), begin| {
-        let origin = begin - begin % CHUNK;
-        let lagged: &Vec<f64> = lagged.get_or_insert_with(|| piece(begin / CHUNK));
-        window.move_to(lagged, begin - origin..begin - origin + medians);
-        window.median()
+    slopes.par_chunks_mut(CHUNK).enumerate().try_for_each(|(chunk, out)| {
+        stop.check()?;
+        let at = chunk * CHUNK..chunk * CHUNK + out.len() + medians - 1;
+        let (here, ahead) = (at.clone(), at.start + lag..at.end + lag);
+        let ends = y[here.clone()].iter().zip(&y[ahead.clone()]).zip(t[here].iter().zip(&t[ahead]));
+        let lagged: Vec<f64> = ends.map(|((y0, y1), (t0, t1))| (y1 - y0) / (t1 - t0)).collect();
+        whole(&lagged, medians, SortedWindow::median, SortedFour::median, |i, median| out[i] = median);
+        Ok(())
     })?;
     let slope = |i: usize| slopes[i.saturating_sub(width / 2).min(last)];
+    let rise = |i: usize| if i == 0 { 0.0 } else { f64::midpoint(slope(i - 1), slope(i)) * (t[i] - t[i - 1]) };
+    let mut base: Vec<f64> = (0..n).into_par_iter().with_min_len(CHUNK).map(rise).collect();
+    stop.check()?;
     let mut height = 0.0;
-    for i in 1..n {
-        stop.check_at(i)?;
-        height += f64::midpoint(slope(i - 1), slope(i)) * (t[i] - t[i - 1]);
-        base[i] += height;
+    for base in &mut base {
+        height += *base;
+        *base = height;
     }
-    Ok(())
+    Ok(Some(base))
 }
 
 #[cfg(test)]
@@ -72,8 +76,7 @@ mod tests {
         for (len, width) in [(5, 3), (7, 21), (40, 21), (200, 10), (20_000, 33)] {
             let t: Vec<f64> = (0..len).map(|i| f64::from(i) + 0.3 * f64::from(i * 7 % 3)).collect();
             let y: Vec<f64> = t.iter().map(|t| 50.0 * (t / 30.0).sin() + (t * 99.7).sin()).collect();
-            let mut base = vec![0.0; y.len()];
-            add_slope(&segment(&t, &y), width, &mut base, &Stop::never()).unwrap();
+            let base = slope(&segment(&t, &y), width, &Stop::never()).unwrap().unwrap();
             let want = plain(&t, &y, width);
             assert!(base.iter().zip(&want).all(|(a, b)| (a - b).abs() < 1e-9), "{len} {width}");
         }
@@ -84,8 +87,7 @@ mod tests {
         let t: Vec<f64> = (0..60).map(f64::from).collect();
         let mut y: Vec<f64> = t.iter().map(|t| 3.0 * t).collect();
         y[30] += 1e6;
-        let mut base = vec![0.0; 60];
-        add_slope(&segment(&t, &y), 21, &mut base, &Stop::never()).unwrap();
+        let base = slope(&segment(&t, &y), 21, &Stop::never()).unwrap().unwrap();
         assert!(base.iter().zip(&t).all(|(b, t)| (b - 3.0 * t).abs() < 1e-9));
     }
 }

@@ -61,6 +61,25 @@ impl Windows {
         }
     }
 
+    /// How many samples there are.
+    pub(in crate::method) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// How many values a whole window holds.
+    pub(in crate::method) fn width(&self) -> usize {
+        self.width
+    }
+
+    /// The samples whose windows are not cut; they begin one after the other.
+    pub(in crate::method) fn whole(&self) -> Range<usize> {
+        if self.edge != Edge::Shrink {
+            return 0..self.len;
+        }
+        let begin = self.width / 2;
+        begin..(self.len + begin + 1).saturating_sub(self.width).max(begin)
+    }
+
     /// The position of sample `c`.
     #[inline]
     pub(in crate::method) fn center(&self, c: usize) -> usize {
@@ -68,8 +87,11 @@ impl Windows {
     }
 
     /// The samples with what is put before and after them; `zero` is the value that counts as zero.
-    pub(in crate::method) fn padded(&self, samples: impl Iterator<Item = f64>, zero: f64) -> Vec<f64> {
-        let after = if self.edge == Edge::Shrink { 0 } else { self.width - 1 - self.pad };
+    pub(in crate::method) fn padded(&self, samples: Vec<f64>, zero: f64) -> Vec<f64> {
+        if self.edge == Edge::Shrink {
+            return samples;
+        }
+        let after = self.width - 1 - self.pad;
         let mut x = Vec::with_capacity(self.pad + self.len + after);
         x.resize(self.pad, zero);
         x.extend(samples);
@@ -128,6 +150,8 @@ mod tests {
     fn even_windows_reach_one_further_back() {
         let w = Windows::new(30, 10, Edge::Shrink);
         assert_eq!((w.range(15), w.range(0), w.range(29)), (10..20, 0..5, 24..30));
+        let cut = |c: &usize| w.range(*c).len() < 10;
+        assert!((0..30).filter(|c| !cut(c)).eq(w.whole()) && Windows::new(9, 10, Edge::Shrink).whole().is_empty());
         let w = Windows::new(30, 3, Edge::Shrink);
         assert_eq!((w.range(0), w.range(1), w.range(29)), (0..3, 0..3, 27..30));
     }
@@ -136,14 +160,14 @@ mod tests {
     fn reflection_does_not_repeat_the_end() {
         let x = [1.0, 2.0, 3.0, 4.0];
         let w = Windows::new(4, 5, Edge::Reflect);
-        assert_eq!(w.padded(x.into_iter(), 0.0), [3.0, 2.0, 1.0, 2.0, 3.0, 4.0, 3.0, 2.0]);
+        assert_eq!(w.padded(x.to_vec(), 0.0), [3.0, 2.0, 1.0, 2.0, 3.0, 4.0, 3.0, 2.0]);
         let w = Windows::new(3, 11, Edge::Reflect);
-        let padded = w.padded([1.0, 2.0, 3.0].into_iter(), 0.0);
+        let padded = w.padded([1.0, 2.0, 3.0].to_vec(), 0.0);
         assert_eq!(padded, [2.0, 1.0, 2.0, 3.0, 2.0, 1.0, 2.0, 3.0, 2.0, 1.0, 2.0, 3.0, 2.0]);
         let mut changed = padded;
         assert_eq!(w.replace(&mut changed, 1, 9.0), 7);
         assert_eq!(changed.iter().filter(|v| **v == 9.0).count(), 7);
         let w = Windows::new(3, 4, Edge::Zero);
-        assert_eq!(w.padded([1.0, 2.0, 3.0].into_iter(), -7.0), [-7.0, -7.0, 1.0, 2.0, 3.0, -7.0]);
+        assert_eq!(w.padded([1.0, 2.0, 3.0].to_vec(), -7.0), [-7.0, -7.0, 1.0, 2.0, 3.0, -7.0]);
     }
 }

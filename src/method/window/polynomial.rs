@@ -1,6 +1,8 @@
 //! Windows that test each of their samples against a polynomial fitted to all of them.
 
-use super::{Verdict, geometry, sweep};
+use rayon::prelude::*;
+
+use super::{CHUNK, Verdict, geometry, sweep};
 use crate::math::window_fit::WindowFit;
 use crate::method::{Judged, Segment, reaches};
 use crate::stop::{Stop, Stopped};
@@ -34,8 +36,8 @@ pub(in crate::method) fn judge(rule: &PolyRule, segment: &Segment<'_>, stop: &St
     let level = geometry::level(segment.y);
     let mut fits = Fits::new(rule, segment);
     let mut run = Run {
-        x: segment.y.iter().map(|y| y - level).collect(),
-        replaced: vec![f64::NAN; n],
+        x: segment.y.par_iter().with_min_len(CHUNK).map(|y| y - level).collect(),
+        replaced: (0..n).into_par_iter().with_min_len(CHUNK).map(|_| f64::NAN).collect(),
         judged: Judged::unchecked(n),
     };
     // Most windows hold no wild point: they are worked out on the data as given, in parallel, and only those that
@@ -167,9 +169,9 @@ impl Run {
     }
 
     fn end(mut self, level: f64) -> Judged {
-        self.judged.expected.iter_mut().for_each(|p| *p += level);
+        self.judged.expected.par_iter_mut().with_min_len(CHUNK).for_each(|p| *p += level);
         if self.replaced.iter().any(|v| !v.is_nan()) {
-            self.replaced.iter_mut().for_each(|v| *v += level);
+            self.replaced.par_iter_mut().with_min_len(CHUNK).for_each(|v| *v += level);
             self.judged.own = self.replaced;
         }
         self.judged
