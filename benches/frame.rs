@@ -52,7 +52,7 @@ fn frame(columns: &Columns, theme: &Theme, buffer: &mut Buffer) {
     let (glyphs, layers) = (Glyphs::Unicode, Layers::ALL);
     TracePlot { columns, theme, glyphs, layers, cursor, selection: None }
         .render(Rect { height: AREA.height - 1, ..AREA }, buffer);
-    FlagRail { columns, theme, glyphs, label: "flags", cursor: None }
+    FlagRail { columns, theme, glyphs, label: "flags", cursor: None, selection: None }
         .render(Rect { y: AREA.height - 1, height: 1, ..AREA }, buffer);
 }
 

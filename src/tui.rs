@@ -5,6 +5,7 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, select, unbounded};
 use ratatui::buffer::Buffer;
@@ -54,6 +55,7 @@ mod terminal;
 pub mod theme;
 pub mod update;
 pub mod view;
+mod wire;
 
 /// How the workbench looks.
 #[derive(Debug, Clone, Copy)]
@@ -142,7 +144,7 @@ pub fn run(opening: Opening, look: Look, config: Config, journal: Option<PathBuf
     let poller = consensus::poll(sender.clone());
     let signals = signals::listen()?;
     let journal = Journal::start(journal, &mut model, sender.clone());
-    let mut outside = Outside { worker, advisor, poller, sender, journal };
+    let mut outside = Outside { worker, advisor, advising: false, poller, sender, journal };
     let mut screen = Screen::take(model.mouse)?;
     let pace = Pace::new(&config.screen);
     let left = work(&mut model, &mut outside, &mut screen, pace, &messages, &signals);
@@ -165,6 +167,9 @@ enum Left {
     Quit,
     Signalled(i32),
 }
+
+/// How long a frame waits for the result of what the user did.
+const FRAME: Duration = Duration::from_millis(16);
 
 /// The loop between the model and the outside.
 fn work(
@@ -218,6 +223,15 @@ fn work(
                 return Ok(Left::Quit);
             }
         }
+        // What is there within a frame's time is drawn with it: one frame goes over the wire, not three.
+        let deadline = Instant::now() + FRAME;
+        while (model.awaited.is_some() || outside.advising)
+            && let Ok(message) = messages.recv_deadline(deadline)
+        {
+            if outside.take(model, screen, message)? == Next::Leave {
+                return Ok(Left::Quit);
+            }
+        }
         outside.journal.catch_up();
         if pace.draws(!still) {
             screen.draw(model)?;
@@ -260,6 +274,8 @@ enum Next {
 struct Outside {
     worker: Worker<Judge>,
     advisor: Worker<Advise>,
+    /// Whether the advisor has been asked what a step changes, and has not answered.
+    advising: bool,
     poller: Worker<Poll>,
     sender: Sender<Message>,
     journal: Journal,
@@ -268,6 +284,9 @@ struct Outside {
 impl Outside {
     /// Has the model take a message in, and does what follows.
     fn take(&mut self, model: &mut Model, screen: &mut Screen, message: Message) -> Result<Next> {
+        if matches!(message, Message::Stepped { .. } | Message::Advised { .. } | Message::NoAdvice) {
+            self.advising = false;
+        }
         let saved = matches!(message, Message::Written { what: Written::Session { .. }, result: Ok(_), .. });
         let effects = update::update(model, message);
         self.journal.note(model);
@@ -283,10 +302,13 @@ impl Outside {
                 Effect::Analyse(plan) => {
                     // What the user waits for goes before advice.
                     self.advisor.cancel();
+                    self.advising = false;
                     model.awaited = Some(self.worker.submit(Judge::new(model, plan)));
                 }
                 Effect::Advise(plan) => {
-                    self.advisor.submit(Advise::new(model, plan));
+                    let job = Advise::new(model, plan);
+                    self.advising = job.has_steps();
+                    self.advisor.submit(job);
                 }
                 Effect::Poll(plan) => {
                     let poll = Poll::new(model, plan);
@@ -297,6 +319,7 @@ impl Outside {
                 Effect::CancelPoll => self.poller.cancel(),
                 Effect::Cancel => {
                     self.advisor.cancel();
+                    self.advising = false;
                     self.worker.cancel();
                 }
                 Effect::Save { path, overwrite, then_quit } => {

@@ -86,7 +86,8 @@ fn drawn(case: &Case) -> (Columns, Buffer) {
     let (columns_ref, glyphs) = (&columns, case.glyphs);
     TracePlot { columns: columns_ref, theme: &theme, glyphs, layers: Layers::ALL, cursor: None, selection: None }
         .render(plot, &mut buffer);
-    FlagRail { columns: columns_ref, theme: &theme, glyphs, label: "flags", cursor: None }.render(rail, &mut buffer);
+    FlagRail { columns: columns_ref, theme: &theme, glyphs, label: "flags", cursor: None, selection: None }
+        .render(rail, &mut buffer);
     (columns, buffer)
 }
 

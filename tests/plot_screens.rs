@@ -61,7 +61,7 @@ fn trace(record: &Record, view: Option<View>, fit: YFit, glyphs: Glyphs, cursor:
     let theme = &theme;
     let at = cursor.map(|position| Cursor { position, y: record.y[position] });
     TracePlot { columns, theme, glyphs, layers: Layers::ALL, cursor: at, selection: None }.render(plot, &mut buffer);
-    FlagRail { columns, theme, glyphs, label: "flags", cursor: None }.render(rest, &mut buffer);
+    FlagRail { columns, theme, glyphs, label: "flags", cursor: None, selection: None }.render(rest, &mut buffer);
     let label = |x: f64| format!("{}:{:02}", x as u32 / 60, x as u32 % 60);
     AxisLabels { view, steps: TickSteps::Clock, phase: 0.0, label_width: 5, label: &label, unit: "min", theme }
         .render(Rect { y: 14, ..rest }, &mut buffer);

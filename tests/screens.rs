@@ -47,6 +47,31 @@ fn queue_with_the_keyboard() {
 }
 
 #[test]
+fn range_with_its_counts() {
+    both("range", ":goto Space #180 Enter v :goto Space #230 Enter");
+}
+
+#[test]
+fn queue_of_runs_longest_first() {
+    both("runs", "K s s s 4 Down");
+}
+
+#[test]
+fn reasons_for_a_note() {
+    both("reasons", "a c Down Down");
+}
+
+#[test]
+fn journal_of_edits_with_some_taken_back() {
+    both("journal", "a r . . :repair Space linear Enter u u J");
+}
+
+#[test]
+fn card_with_room() {
+    both("card", "n a p 5 w");
+}
+
+#[test]
 fn help() {
     both("help", "?");
 }

@@ -181,6 +181,16 @@ impl Columns {
         }
     }
 
+    /// Whether a column shows selected positions, or is empty between some.
+    #[must_use]
+    pub fn selects(&self, column: u16, selection: &Range<usize>) -> bool {
+        let here = self.positions(column);
+        if here.is_empty() {
+            return selection.start < here.start && here.start < selection.end;
+        }
+        here.start.max(selection.start) < here.end.min(selection.end)
+    }
+
     /// The flag drawn in a cell.
     pub(crate) fn flag_cell(&self, column: usize, row: usize) -> Option<FlagState> {
         if column >= usize::from(self.grid.width) {

@@ -1,4 +1,5 @@
-//! Threshold advice beside the active knob: the counts along the multiplier, found on a thread of its own.
+//! Advice beside the active knob, found on a thread of its own: what one step either way changes, and the counts
+//! along the multiplier.
 
 use std::sync::Arc;
 
@@ -12,6 +13,11 @@ use crate::session::Setup;
 use crate::session::sweep::{FROM, STEPS, Sweep, TO, grid, multiplier, sweep};
 use crate::stop::Stop;
 use crate::track::{Samples, Track};
+
+mod steps;
+
+use steps::StepsJob;
+pub use steps::{Step, Steps};
 
 /// On records up to this length the advice comes by itself; on longer ones it is asked for, since 48 judgements take
 /// a while.
@@ -40,9 +46,11 @@ impl Advice {
     }
 }
 
-/// A sweep to make.
+/// What to find out: what one step of the active knob changes, and the sweep where it is wanted.
 #[derive(Debug)]
 pub struct Advise {
+    steps: Option<StepsJob>,
+    wants_sweep: bool,
     track: Arc<Track>,
     plan: usize,
     channel: usize,
@@ -54,7 +62,12 @@ impl Advise {
     /// The job for a plan of the model as it is now.
     #[must_use]
     pub fn new(model: &Model, plan: usize) -> Self {
+        let (state, setup) = (&model.channels[plan], &model.session.plans[plan].setup);
+        let known = state.advice.as_ref().is_some_and(|a| a.is_for(setup));
+        let cheap = state.drawn.as_ref().is_some_and(|d| d.hidden.len() <= BY_ITSELF);
         Self {
+            steps: StepsJob::new(model, plan),
+            wants_sweep: !known && (cheap || state.sweep_asked) && multiplier(setup).is_ok(),
             track: Arc::clone(&model.track),
             plan,
             channel: model.channels[plan].channel,
@@ -63,7 +76,21 @@ impl Advise {
         }
     }
 
-    /// Makes it.
+    /// Whether it is asked what a step changes.
+    #[must_use]
+    pub fn has_steps(&self) -> bool {
+        self.steps.is_some()
+    }
+
+    /// What one step either way changes; none where the active knob has no bearing on the flags.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`], and what the method cannot do under the settings.
+    pub fn steps(&self, stop: &Stop) -> Result<Option<Steps>> {
+        self.steps.as_ref().map(|job| job.run(stop)).transpose()
+    }
+
+    /// Makes the sweep.
     ///
     /// # Errors
     /// [`Error::Stopped`]; [`Error::Usage`] for a method without a multiplier that matters.
@@ -76,16 +103,32 @@ impl Advise {
     }
 }
 
-/// A worker that makes sweeps and sends what comes out; what cannot be swept is not spoken of.
+/// A worker that finds advice and sends what comes out; what cannot be swept is not spoken of.
 #[must_use]
 pub fn advise(results: Sender<Message>) -> Worker<Advise> {
-    Worker::new(move |_, job: Advise, stop: &Stop| match job.run(stop) {
-        Ok(advice) => {
-            let _ = results.send(Message::Advised { plan: job.plan, advice: Box::new(advice) });
+    Worker::new(move |_, job: Advise, stop: &Stop| {
+        // Whoever waits for an answer gets one.
+        match job.steps(stop) {
+            Ok(Some(steps)) => {
+                let _ = results.send(Message::Stepped { plan: job.plan, steps: Box::new(steps) });
+            }
+            Err(Error::Stopped) => return,
+            Err(_) => {
+                let _ = results.send(Message::NoAdvice);
+            }
+            Ok(None) => {}
         }
-        Err(Error::Stopped) => {}
-        Err(_) => {
-            let _ = results.send(Message::NoAdvice);
+        if !job.wants_sweep {
+            return;
+        }
+        match job.run(stop) {
+            Ok(advice) => {
+                let _ = results.send(Message::Advised { plan: job.plan, advice: Box::new(advice) });
+            }
+            Err(Error::Stopped) => {}
+            Err(_) => {
+                let _ = results.send(Message::NoAdvice);
+            }
         }
     })
 }

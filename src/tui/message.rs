@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use ratatui::crossterm::event::{KeyEvent, MouseEvent};
 
-use super::advice::Advice;
+use super::advice::{Advice, Steps};
 use super::consensus::Consensus;
 use crate::error::{Error, Result};
 use crate::plot::Drawn;
@@ -51,6 +51,13 @@ pub enum Message {
         plan: usize,
         /// Their votes.
         consensus: Box<Consensus>,
+    },
+    /// What one step of the active knob of a channel changes is known.
+    Stepped {
+        /// Index of the plan.
+        plan: usize,
+        /// The changes, and what they were found for.
+        steps: Box<Steps>,
     },
     /// There is nothing to sweep under the settings as they were.
     NoAdvice,
@@ -100,7 +107,8 @@ pub enum Fate {
 pub enum Effect {
     /// Judge the channel of this plan under the session as it is now.
     Analyse(usize),
-    /// Find the counts along the multiplier of the channel of this plan, when nothing else is to do.
+    /// Find what a step of the active knob of this plan changes and, where they are not known, the counts along its
+    /// multiplier, when nothing else is to do.
     Advise(usize),
     /// Ask all methods about the channel of this plan.
     Poll(usize),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::action::Panel;
-use super::advice::Advice;
+use super::advice::{Advice, Steps};
 use super::consensus::Polling;
 use super::keys::Keys;
 use super::plot::{Axis, Glyphs, View};
@@ -256,7 +256,11 @@ impl Model {
     /// The knobs that matter now, in the order of the panel.
     #[must_use]
     pub fn knobs(&self) -> Vec<Knob> {
-        let setup = &self.plan().setup;
+        self.knobs_of(self.shown)
+    }
+
+    fn knobs_of(&self, plan: usize) -> Vec<Knob> {
+        let setup = &self.session.plans[plan].setup;
         let mut knobs = vec![Knob::Method];
         if setup.method.about().needs_rate {
             knobs.push(Knob::Rate);
@@ -269,8 +273,21 @@ impl Model {
     /// The active knob.
     #[must_use]
     pub fn knob(&self) -> Knob {
-        let knobs = self.knobs();
-        knobs.get(self.state().knob).or(knobs.last()).copied().unwrap_or(Knob::Method)
+        self.knob_of(self.shown)
+    }
+
+    /// The active knob of a plan.
+    #[must_use]
+    pub fn knob_of(&self, plan: usize) -> Knob {
+        let knobs = self.knobs_of(plan);
+        knobs.get(self.channels[plan].knob).or(knobs.last()).copied().unwrap_or(Knob::Method)
+    }
+
+    /// What one step of the active knob of the channel on the screen changes, if that is known.
+    #[must_use]
+    pub fn steps(&self) -> Option<&Steps> {
+        let state = self.state();
+        state.steps.as_ref().filter(|s| !state.stale && s.is_for(&self.plan().setup, self.knob()))
     }
 
     /// The advice on the multiplier of the channel on the screen, if it is there and holds for the setup as it is now.

@@ -33,19 +33,25 @@ impl Judge {
     /// The job for a plan of the model as it is now.
     #[must_use]
     pub fn new(model: &Model, plan: usize) -> Self {
+        Self::under(model, plan, model.session.plans[plan].setup.clone())
+    }
+
+    /// The job for a plan of the model as it would be with another setup.
+    #[must_use]
+    pub fn under(model: &Model, plan: usize, setup: Setup) -> Self {
         let state = &model.channels[plan];
-        let setup = &model.session.plans[plan].setup;
-        let shares = |i: &usize| setup.together() && model.session.plans[*i].setup.same_detection(setup);
+        let alike = |i: usize| i == plan || model.session.plans[i].setup.same_detection(&setup);
+        let shares = |i: &usize| setup.together() && alike(*i);
         let member = |i: usize| (model.channels[i].channel, Arc::clone(&model.channels[i].samples));
         Self {
             track: Arc::clone(&model.track),
             plan,
             channel: state.channel,
             samples: Arc::clone(&state.samples),
-            setup: model.session.plans[plan].setup.clone(),
             decisions: model.session.plans[plan].decisions.clone(),
             previous: state.drawn.as_ref().map(|d| Arc::clone(&d.outcome.detection)),
             together: (0..model.channels.len()).filter(shares).map(member).collect(),
+            setup,
         }
     }
 
@@ -55,7 +61,21 @@ impl Judge {
     /// [`Error::Stopped`], and what the method cannot do under the settings.
     pub fn run(&self, stop: &Stop) -> Result<Drawn> {
         let channel = &self.track.channels[self.channel];
-        let detection = match &self.previous {
+        let detection = self.detection(stop)?;
+        let outcome = settle(&self.track, channel, &self.samples, detection, &self.decisions, stop)?;
+        stop.check()?;
+        Ok(Drawn::new(outcome, &self.samples.series(channel, &self.track.time)))
+    }
+}
+
+impl Judge {
+    /// What the method says.
+    ///
+    /// # Errors
+    /// As [`Judge::run`].
+    pub fn detection(&self, stop: &Stop) -> Result<Arc<Detection>> {
+        let channel = &self.track.channels[self.channel];
+        Ok(match &self.previous {
             // Which channels share the setup may have changed, though this one's has not.
             _ if !self.together.is_empty() => Arc::new(self.detect_together(stop)?),
             Some(previous) if previous.setup.same_detection(&self.setup) => {
@@ -67,14 +87,9 @@ impl Judge {
                 let previous = previous.as_deref();
                 Arc::new(detect(&self.track, channel, &self.samples, &self.setup, previous, stop)?)
             }
-        };
-        let outcome = settle(&self.track, channel, &self.samples, detection, &self.decisions, stop)?;
-        stop.check()?;
-        Ok(Drawn::new(outcome, &self.samples.series(channel, &self.track.time)))
+        })
     }
-}
 
-impl Judge {
     fn detect_together(&self, stop: &Stop) -> Result<Detection> {
         let channels: Vec<_> =
             self.together.iter().map(|(channel, samples)| (&self.track.channels[*channel], samples.as_ref())).collect();

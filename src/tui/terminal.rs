@@ -5,7 +5,6 @@ use std::mem::ManuallyDrop;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use ratatui::Terminal;
-use ratatui::backend::CrosstermBackend;
 use ratatui::crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
 use ratatui::crossterm::style::{Print, force_color_output};
 use ratatui::crossterm::terminal::{
@@ -18,6 +17,7 @@ use ratatui::layout::Rect;
 use super::clipboard;
 use super::model::Model;
 use super::view::view;
+use super::wire::Wire;
 use crate::error::{Error, Result};
 
 /// A whole frame fits, so that it is one write.
@@ -36,7 +36,7 @@ const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
 /// The screen of the workbench. It gives the terminal back itself: what is inside is never dropped, since its own
 /// `Drop` complains on standard error when it cannot show the cursor, which panics where the whole terminal is gone.
-pub(super) struct Screen(ManuallyDrop<Terminal<CrosstermBackend<BufWriter<Stdout>>>>);
+pub(super) struct Screen(ManuallyDrop<Terminal<Wire<BufWriter<Stdout>>>>);
 
 impl Screen {
     /// Takes the terminal over, and with `mouse` the mouse.
@@ -46,7 +46,7 @@ impl Screen {
         force_color_output(true);
         give_back_on_panic();
         enter()?;
-        let backend = CrosstermBackend::new(BufWriter::with_capacity(BUFFER, std::io::stdout()));
+        let backend = Wire::new(BufWriter::with_capacity(BUFFER, std::io::stdout()));
         Terminal::new(backend).map(|terminal| Self(ManuallyDrop::new(terminal))).map_err(failed)
     }
 

@@ -70,7 +70,12 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
         }
         Message::Analysed { generation, plan, result } => analysed(model, generation, plan, result),
         Message::Advised { plan, advice } => {
-            model.channels[plan].advice = Some(*advice);
+            let state = &mut model.channels[plan];
+            (state.advice, state.sweep_asked) = (Some(*advice), false);
+            Vec::new()
+        }
+        Message::Stepped { plan, steps } => {
+            model.channels[plan].steps = Some(*steps);
             Vec::new()
         }
         Message::NoAdvice => Vec::new(),
@@ -205,6 +210,9 @@ pub(super) fn show(model: &mut Model, plan: usize) -> Vec<Effect> {
 
 /// Puts another channel on the screen: a range that was selected has no meaning there.
 fn turn_to(model: &mut Model, plan: usize) {
+    if plan == model.shown {
+        return;
+    }
     model.shown = plan;
     (model.review.anchor, model.review.left_at) = (None, None);
 }

@@ -114,6 +114,10 @@ fn toast(model: &Model, area: Rect, buffer: &mut Buffer) {
         said(&toast.text, style)
     } else if let Some(error) = &model.state().error {
         said(error, theme.error)
+    } else if let Some(range) = model.selection() {
+        said(&range_words(model, &range), theme.focus)
+    } else if let Some(warning) = no_flags(model) {
+        said(&warning, theme.warning)
     } else {
         Line::default()
     };
@@ -129,6 +133,24 @@ fn toast(model: &Model, area: Rect, buffer: &mut Buffer) {
         clear(row, buffer);
         said(text, style).render(row, buffer);
     }
+}
+
+/// What is selected, and what can be done with it.
+fn range_words(model: &Model, range: &std::ops::Range<usize>) -> String {
+    let series = model.series();
+    let (first, last) = (series.row(range.start) + 1, series.row(range.end - 1) + 1);
+    let flags = super::update::decide::flags_in(model, range).len();
+    let counts = format!("{} samples, {} flags", thousands(range.len()), thousands(flags));
+    format!("rows {first} to {last}: {counts} · a r x space o, Esc leaves")
+}
+
+/// Why nothing is flagged, where the settings do not allow it. (Where there is a panel for the settings, it says so
+/// too; the line is for screens without.)
+fn no_flags(model: &Model) -> Option<String> {
+    let drawn = model.state().drawn.as_ref().filter(|d| d.outcome.counts.flagged == 0)?;
+    let setup = &model.plan().setup;
+    let of_setup = setup.method.warnings(&setup.settings).into_iter().next();
+    of_setup.or_else(|| drawn.outcome.detection.judged.warnings.first().cloned())
 }
 
 /// Words of the program. The style ends with them: styled blanks up to the edge would go over the wire each time.

@@ -121,7 +121,7 @@ pub fn all_widgets(
     let label = |x: f64| format!("{x:.3}");
     TracePlot { columns, theme, glyphs, layers: Layers::ALL, cursor, selection: Some(at / 2..at) }.render(area, buffer);
     look(buffer);
-    FlagRail { columns, theme, glyphs, label: "flags", cursor: Some(at) }.render(area, buffer);
+    FlagRail { columns, theme, glyphs, label: "flags", cursor: Some(at), selection: None }.render(area, buffer);
     look(buffer);
     ResidualPlot {
         columns,

@@ -176,6 +176,12 @@ impl Terminal {
         self.child.wait().unwrap();
     }
 
+    /// How many frames have come.
+    pub(crate) fn frames(&self) -> usize {
+        let seen = self.seen.0.lock().unwrap();
+        seen.raw.windows(FRAME_END.len()).filter(|bytes| *bytes == FRAME_END).count()
+    }
+
     /// How many bytes have come.
     pub(crate) fn bytes(&self) -> usize {
         self.seen.0.lock().unwrap().raw.len()

@@ -10,6 +10,7 @@ use ratatui::layout::Rect;
 use wildpoint::session::{Session, Setup};
 use wildpoint::stop::Stop;
 use wildpoint::track::{LoadOptions, Source, load};
+use wildpoint::tui::advice::Advise;
 use wildpoint::tui::consensus::Poll;
 use wildpoint::tui::message::{Effect, Message};
 use wildpoint::tui::model::Model;
@@ -43,10 +44,19 @@ impl Bench {
         let result = Judge::new(&self.0, plan).run(&Stop::never()).map(Box::new);
         self.0.awaited = Some(0);
         for effect in update(&mut self.0, Message::Analysed { generation: 0, plan, result }) {
-            // Advice comes when nothing else is to do: not in a still frame.
-            if let Effect::Poll(plan) = effect {
-                self.poll(plan);
+            match effect {
+                Effect::Poll(plan) => self.poll(plan),
+                Effect::Advise(plan) => self.advise(plan),
+                other => panic!("{other:?} follows on a result"),
             }
+        }
+    }
+
+    /// What a step of the active knob changes is there at once. The sweep comes when nothing else is to do: not in a
+    /// still frame.
+    fn advise(&mut self, plan: usize) {
+        if let Some(steps) = Advise::new(&self.0, plan).steps(&Stop::never()).unwrap() {
+            update(&mut self.0, Message::Stepped { plan, steps: Box::new(steps) });
         }
     }
 
@@ -88,6 +98,7 @@ impl Bench {
             match effect {
                 Effect::Analyse(plan) => self.judge(plan),
                 Effect::Poll(plan) => self.poll(plan),
+                Effect::Advise(plan) => self.advise(plan),
                 Effect::CancelPoll => {}
                 other => panic!("{other:?} is nothing for a still frame"),
             }

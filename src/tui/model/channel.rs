@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::super::advice::Advice;
+use super::super::advice::{Advice, Steps};
 use super::super::consensus::Consensus;
 use super::super::picture::Pictures;
 use super::super::plot::{Axis, Flags, Layers, View};
@@ -32,6 +32,10 @@ pub struct ChannelState {
     pub top: u32,
     /// The counts along the multiplier, for the setup they were found for.
     pub advice: Option<Advice>,
+    /// True when they were asked for, however long they take.
+    pub sweep_asked: bool,
+    /// What one step of the active knob changes, for the setup it was found for.
+    pub steps: Option<Steps>,
     /// True when the result is not that of the session as it is now.
     pub stale: bool,
     /// Why there is no result.
@@ -104,6 +108,8 @@ impl ChannelState {
             groups: Vec::new(),
             top: 0,
             advice: None,
+            sweep_asked: false,
+            steps: None,
             stale: true,
             error: None,
             touched,

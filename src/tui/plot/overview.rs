@@ -92,6 +92,6 @@ impl Widget for Overview<'_> {
         }
         let rail = Rect { y: area.y.saturating_add(rows), height: 1, ..area };
         let (columns, theme, glyphs) = (self.columns, self.theme, self.glyphs);
-        FlagRail { columns, theme, glyphs, label: "flags", cursor: None }.render(rail, buffer);
+        FlagRail { columns, theme, glyphs, label: "flags", cursor: None, selection: None }.render(rail, buffer);
     }
 }

@@ -1,5 +1,7 @@
 //! The flag rail: one row that counts the flags of every column, never hidden.
 
+use std::ops::Range;
+
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
@@ -25,6 +27,8 @@ pub struct FlagRail<'a> {
     pub label: &'a str,
     /// Position of the sample under the cursor.
     pub cursor: Option<usize>,
+    /// Selected positions.
+    pub selection: Option<Range<usize>>,
 }
 
 impl FlagRail<'_> {
@@ -46,6 +50,8 @@ impl Widget for FlagRail<'_> {
         let cursor = self.cursor.and_then(|position| self.columns.column_of(position));
         for column in 0..paint.width() {
             let (glyph, style) = self.mark(column);
+            let selected = self.selection.as_ref().is_some_and(|s| self.columns.selects(column, s));
+            let style = if selected { style.patch(self.theme.selection) } else { style };
             let style = if cursor == Some(column) { style.patch(self.theme.cursor) } else { style };
             paint.put(column, 0, glyph, style);
         }

@@ -143,12 +143,7 @@ impl TracePlot<'_> {
 
     /// Is the column selected, or empty between selected samples?
     fn selects(&self, column: u16) -> bool {
-        let Some(selection) = &self.selection else { return false };
-        let here = self.columns.positions(column);
-        if here.is_empty() {
-            return selection.start < here.start && here.start < selection.end;
-        }
-        here.start.max(selection.start) < here.end.min(selection.end)
+        self.selection.as_ref().is_some_and(|selection| self.columns.selects(column, selection))
     }
 
     /// What is patched over every cell of a column.

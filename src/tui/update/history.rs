@@ -125,8 +125,8 @@ fn step(model: &mut Model, forth: bool) -> Option<Edit> {
 /// Shows where an edit was, and says what it was.
 fn say(model: &mut Model, edit: &Edit, verb: &str, way_back: &str) -> Vec<Effect> {
     let touched = edit.touched();
-    // Where several channels were changed, the one on the screen stays.
-    if let Some((plan, _)) = touched.first().filter(|_| touched.iter().all(|(plan, _)| *plan != model.shown)) {
+    // What was done to all channels at once is shown where the user is.
+    if let (Some((plan, _)), false) = (touched.first(), matches!(edit, Edit::Several(_))) {
         super::turn_to(model, *plan);
     }
     let here = touched.iter().find(|(plan, _)| *plan == model.shown);

@@ -87,7 +87,7 @@ pub(super) fn choose(model: &mut Model, by: isize) -> Vec<Effect> {
         let text = format!("{} {} · , . step", knob.name(), value_text(&model.plan().setup, knob));
         model.say(Tone::Done, text);
     }
-    Vec::new()
+    advise(model, model.shown)
 }
 
 pub(super) fn type_value(model: &mut Model) -> Vec<Effect> {
@@ -189,14 +189,20 @@ pub(super) fn set_repair(model: &mut Model, id: &str) -> Result<Vec<Effect>, Str
     Ok(effects)
 }
 
-/// Asks for the counts along the multiplier where they are not known and cheap enough to be found unasked.
+/// Asks for what a step of the active knob changes, and for the counts along the multiplier where they are cheap
+/// enough to be found unasked, unless they are known.
 pub(super) fn advise(model: &Model, plan: usize) -> Vec<Effect> {
     let state = &model.channels[plan];
     let setup = &model.session.plans[plan].setup;
-    let known = state.advice.as_ref().is_some_and(|advice| advice.is_for(setup));
     let n = state.drawn.as_ref().map_or(0, |d| d.hidden.len());
-    let wanted = !known && !state.stale && (1..=BY_ITSELF).contains(&n) && multiplier(setup).is_ok();
-    if wanted { vec![Effect::Advise(plan)] } else { Vec::new() }
+    if state.stale || n == 0 {
+        return Vec::new();
+    }
+    let known = state.advice.as_ref().is_some_and(|advice| advice.is_for(setup));
+    let sweep = !known && n <= BY_ITSELF && multiplier(setup).is_ok();
+    let knob = model.knob_of(plan);
+    let steps = matches!(knob, Knob::Detection(_)) && !state.steps.as_ref().is_some_and(|s| s.is_for(setup, knob));
+    if sweep || steps { vec![Effect::Advise(plan)] } else { Vec::new() }
 }
 
 /// Sets the multiplier to the middle of the longest plateau of the counts.
@@ -205,6 +211,7 @@ pub(super) fn take_suggestion(model: &mut Model) -> Vec<Effect> {
     let Some(sweep) = model.advice().map(|a| a.sweep.clone()) else {
         return match multiplier(&model.plan().setup) {
             Ok(param) => {
+                model.state_mut().sweep_asked = true;
                 model.say(Tone::Done, format!("looking along {} for a threshold; f again takes it", param.key));
                 vec![Effect::Advise(plan)]
             }

@@ -6,15 +6,20 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
-use super::super::model::Model;
+use super::super::model::{Model, Unit};
 use super::super::plot::{FlagState, Glyphs};
 use super::super::update::mark_at;
 use super::queue::ratio_text;
-use super::{clear, compare, heading, several_days, short};
+use super::{clear, compare, fit, heading, several_days, short};
 use crate::method::{Direction, Verdict};
 use crate::plot::{Drawn, state};
 use crate::session::Mark;
 use crate::track::{Series, printable};
+
+mod whole;
+
+/// Columns of a note in the heading.
+const NOTE: usize = 44;
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     clear(area, buffer);
@@ -25,6 +30,10 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     let body = heading(model, Panel::Card, &words, area, buffer);
     if cursor >= series.len() {
         Line::styled(" no sample has both a time and a value", model.theme.dim).render(body, buffer);
+        return;
+    }
+    if body.height >= whole::LEAST {
+        whole::draw(model, &series, mark.as_ref(), body, buffer);
         return;
     }
     let narrow = area.width < 100;
@@ -50,7 +59,12 @@ fn heading_words(model: &Model, mark: Option<&Mark>) -> Vec<Span<'static>> {
     let theme = &model.theme;
     let state_of = mark.and_then(state);
     let queue = &model.state().queue;
-    let at = mark.and_then(|m| queue.iter().position(|p| *p == m.position));
+    // In a queue of runs, the run is what has a place.
+    let head = |m: &Mark| match model.review.unit {
+        Unit::Run => model.group(m.position as usize).map_or(m.position, |g| g.start),
+        Unit::Sample => m.position,
+    };
+    let at = mark.map(head).and_then(|head| queue.iter().position(|p| *p == head));
     let place = match at {
         Some(at) => format!("{} of {}  ", at + 1, queue.len()),
         None => format!("none here, {} in all  ", queue.len()),
@@ -66,7 +80,27 @@ fn heading_words(model: &Model, mark: Option<&Mark>) -> Vec<Span<'static>> {
     if let Some(who) = compare::who(model, model.state().cursor) {
         spans.push(Span::styled(format!("{who}  "), theme.title));
     }
+    if let Some(words) = why(model) {
+        spans.push(Span::styled(format!("{}  ", fit(&words, NOTE)), theme.dim));
+    }
+    if model.review.unit == Unit::Run {
+        spans.push(Span::styled("run by run  ", theme.title));
+    }
+    if !model.review.auto_advance {
+        spans.push(Span::styled("auto-advance off  ", theme.title));
+    }
     spans
+}
+
+/// Who has decided on the sample under the cursor, and why; none where nobody has.
+fn why(model: &Model) -> Option<String> {
+    let row = model.series().row_of(model.state().cursor).and_then(|r| u32::try_from(r).ok())?;
+    if let Some((_, _, note)) = model.review.waiting.as_ref().filter(|(p, r, _)| (*p, *r) == (model.shown, row)) {
+        return Some(format!("note that waits for a decision: {}", printable(note)));
+    }
+    let decision = model.plan().decisions.get(row)?;
+    let note = printable(&decision.note);
+    Some(if note.is_empty() { "by the analyst".into() } else { format!("by the analyst: {note}") })
 }
 
 pub(super) fn state_word(state: FlagState) -> &'static str {

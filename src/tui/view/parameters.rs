@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
-use super::super::advice::Advice;
+use super::super::advice::{Advice, Step};
 use super::super::model::{Knob, Model};
 use super::super::update::value_text;
 use super::{clear, compare, fit, heading, short, thousands};
@@ -117,9 +117,8 @@ fn blocks(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
     let mut blocks = Vec::new();
     let block = |text: &str, warn: bool| wrapped(text, width).into_iter().map(|line| (line, warn)).collect::<Vec<_>>();
     let setup = &model.plan().setup;
-    if let Some(drawn) = &model.state().drawn {
-        blocks.push(counts(drawn, width));
-    }
+    let drawn = model.state().drawn.as_ref();
+    blocks.extend(drawn.map(|drawn| flagged(model, drawn)));
     let pinned = compare::rows(model);
     blocks.extend(pinned.map(|rows| rows.into_iter().map(|row| (fit(&row, width), false)).collect()));
     let advice = model.advice().map(|advice| advice_rows(model, advice, width));
@@ -135,14 +134,15 @@ fn blocks(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
         help.extend(block(&format!("{} [{}], default {}{paper}", p.help, p.range(), p.default), false));
         blocks.push(help);
     }
-    if !about_it {
-        blocks.extend(advice);
-    }
     let mut warnings = setup.method.warnings(&setup.settings);
     if let Some(drawn) = model.state().drawn.as_ref().filter(|_| !model.state().stale) {
         warnings.extend(drawn.outcome.detection.judged.warnings.iter().cloned());
     }
     blocks.extend(warnings.iter().map(|warning| block(warning, true)));
+    blocks.extend(drawn.map(|drawn| counts(drawn, width)));
+    if !about_it {
+        blocks.extend(advice);
+    }
     blocks
 }
 
@@ -179,16 +179,20 @@ fn advice_rows(model: &Model, advice: &Advice, width: usize) -> Vec<(String, boo
     rows
 }
 
-/// How many samples are what.
-fn counts(drawn: &Drawn, width: usize) -> Vec<(String, bool)> {
+/// How many samples are flagged, and how many were with another value of the active knob.
+fn flagged(model: &Model, drawn: &Drawn) -> Vec<(String, bool)> {
     let n = drawn.outcome.counts;
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
     let share = if n.present > 0 { 100.0 * n.flagged as f64 / n.present as f64 } else { 0.0 };
-    let mut lines = vec![
-        String::new(),
-        format!("flagged        {} ({share:.2} %)", thousands(n.flagged)),
-        format!("isolated {}, patches {}", n.isolated, n.patches),
-    ];
+    let mut lines = vec![String::new(), format!("flagged        {} ({share:.2} %)", thousands(n.flagged))];
+    lines.extend(steps(model, n.flagged));
+    lines.into_iter().map(|line| (line, false)).collect()
+}
+
+/// How many samples are what.
+fn counts(drawn: &Drawn, width: usize) -> Vec<(String, bool)> {
+    let n = drawn.outcome.counts;
+    let mut lines = vec![format!("isolated {}, patches {}", n.isolated, n.patches)];
     let mut rest = vec![format!("repaired {}, removed {}", n.repaired, n.removed)];
     let restarts = drawn.outcome.detection.judged.restarts.len();
     for (count, word) in
@@ -200,6 +204,40 @@ fn counts(drawn: &Drawn, width: usize) -> Vec<(String, bool)> {
     }
     lines.extend(wrapped(&rest.join(", "), width));
     lines.into_iter().map(|line| (line, false)).collect()
+}
+
+/// How many flags there are one step of the active knob up and down, and how many of them come and go.
+fn steps(model: &Model, flagged: usize) -> Vec<String> {
+    let Knob::Detection(param) = model.knob() else { return Vec::new() };
+    let Some(now) = model.plan().setup.settings.get(param.key) else { return Vec::new() };
+    let decisions = &model.plan().decisions;
+    let known = model.steps();
+    let row = |steps: i64, step: Option<&Step>| {
+        let value = param.step(now, steps);
+        let counts = step.map_or_else(
+            || "…".to_owned(),
+            |step| {
+                let (gained, lost) = step.counts(decisions);
+                let there = (flagged + gained).saturating_sub(lost);
+                format!("{} (+{gained} −{lost})", thousands(there))
+            },
+        );
+        (value != now).then(|| format!("{:<15}{counts}", fit(&format!("{} {value}", param.key), 14)))
+    };
+    let up = known.and_then(|s| s.up.as_ref());
+    let down = known.and_then(|s| s.down.as_ref());
+    [row(1, up), row(-1, down)].into_iter().flatten().collect()
+}
+
+/// The same in a few characters, for the line.
+fn steps_in_line(model: &Model) -> String {
+    let Some(known) = model.steps() else { return String::new() };
+    let decisions = &model.plan().decisions;
+    let words = |arrow: char, step: Option<&Step>| {
+        let counts = step.map(|step| step.counts(decisions));
+        counts.map_or_else(String::new, |(gained, lost)| format!(" {arrow}+{gained}−{lost}"))
+    };
+    format!("{}{}", words('↑', known.up.as_ref()), words('↓', known.down.as_ref()))
 }
 
 pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
@@ -230,7 +268,10 @@ pub(super) fn one_line(model: &Model, area: Rect, buffer: &mut Buffer) {
         let name = if i == 0 { String::new() } else { format!("{name} ") };
         if i == active { format!("  {name}‹{value}›") } else { format!("  {name}{value}") }
     };
-    let width = |i: usize| item(i).chars().count();
+    // Its place is kept while it is not known, so that nothing moves when it comes.
+    let beside = format!("{:<14}", steps_in_line(model));
+    let room = usize::from(area.width) >= 70 && matches!(model.knob(), Knob::Detection(_));
+    let width = |i: usize| item(i).chars().count() + if i == active && room { beside.chars().count() } else { 0 };
     // As many as fit: the method, the active one and the repair before all others.
     let mut wanted = vec![0, active];
     wanted.extend(knobs.iter().position(|k| k.name() == "repair"));
@@ -254,7 +295,13 @@ pub(super) fn one_line(model: &Model, area: Rect, buffer: &mut Buffer) {
         };
         Span::styled(item(i), style)
     };
-    let mut spans: Vec<Span<'_>> = shown.into_iter().map(span).collect();
+    let mut spans: Vec<Span<'_>> = Vec::new();
+    for i in shown {
+        spans.push(span(i));
+        if i == active && room {
+            spans.push(Span::styled(beside.clone(), theme.dim));
+        }
+    }
     if !all {
         spans.push(Span::styled(" …", theme.dim));
     }

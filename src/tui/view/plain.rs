@@ -6,8 +6,10 @@ use ratatui::layout::Rect;
 use super::super::plot::Glyphs;
 
 /// Replacements of one cell for one cell.
-const SUBSTITUTES: [(&str, &str); 13] = [
+const SUBSTITUTES: [(&str, &str); 15] = [
     ("·", "|"),
+    ("−", "-"),
+    ("×", "x"),
     ("…", "~"),
     ("→", ">"),
     ("←", "<"),

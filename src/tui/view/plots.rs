@@ -46,7 +46,7 @@ impl<'a> Plots<'a> {
         let with_flags = state.after.then(|| self.picture.rail(plot.width));
         let cursor = self.picture.series.y.get(state.cursor).map(|&y| Cursor { position: state.cursor, y });
         let selection = model.selection();
-        let widget = TracePlot { columns, theme, glyphs, layers: self.layers(), cursor, selection };
+        let widget = TracePlot { columns, theme, glyphs, layers: self.layers(), cursor, selection: selection.clone() };
         let note = widget.y_note();
         let words = self.trace_words(columns, &note);
         let words: Vec<Words<'_>> = words.iter().map(|w| Words::styled(w.as_str(), theme.dim)).collect();
@@ -58,7 +58,7 @@ impl<'a> Plots<'a> {
             SideRail { sides, columns, cursor, theme, glyphs }.render(side_row.unwrap_or_default(), buffer);
         }
         let columns = with_flags.as_deref().unwrap_or(columns);
-        FlagRail { columns, theme, glyphs, label: "flags", cursor }.render(rail_row, buffer);
+        FlagRail { columns, theme, glyphs, label: "flags", cursor, selection }.render(rail_row, buffer);
         if let Some(row) = axis_row {
             self.axis_labels(row, state.view, buffer);
         }

@@ -49,6 +49,6 @@ impl Plots<'_> {
         rule(model, spans, head, buffer);
         widget.render(body, buffer);
         let cursor = cursor.map(|cursor| cursor.position);
-        FlagRail { columns, theme, glyphs, label: "flags", cursor }.render(rail_row, buffer);
+        FlagRail { columns, theme, glyphs, label: "flags", cursor, selection: None }.render(rail_row, buffer);
     }
 }
