@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::method::shared::MAX_GAP;
 use crate::repair;
 use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
@@ -127,13 +127,13 @@ pub enum Command {
         threads: Option<usize>,
     },
     /// Count outliers along a parameter, and suggest a threshold.
-    #[command(long_about = tools::SWEEP)]
+    #[command(long_about = tools::SWEEP, mut_arg("channel", one_channel))]
     Sweep(SweepArgs),
     /// Every method on one channel, side by side.
-    #[command(long_about = tools::COMPARE)]
+    #[command(long_about = tools::COMPARE, mut_arg("channel", one_channel))]
     Compare(CompareArgs),
     /// Judge samples from standard input as they arrive.
-    #[command(long_about = tools::STREAM)]
+    #[command(long_about = tools::STREAM, mut_arg("channel", one_channel))]
     Stream(StreamArgs),
     /// List the methods, or explain one with its parameters.
     Methods {
@@ -151,6 +151,7 @@ pub enum Command {
     /// Run the published experiments and print their tables beside ours.
     Reproduce(ReproduceArgs),
     /// Add known wild points to a record, with truth.
+    #[command(mut_arg("channel", one_channel))]
     Inject(InjectArgs),
     /// Print shell completions.
     Completions {
@@ -342,15 +343,25 @@ impl Shared {
             setup.repair.set_text("repair", repair::METHOD.key, repair::find(id)?.id)?;
         }
         for (key, value) in named {
-            if let Some(value) = value {
-                setup.set_text(key, value)?;
+            let Some(value) = value else { continue };
+            // Of two values for one setting neither is what the user surely means.
+            if let Some((_, other)) = self.set.iter().find(|(k, v)| k == key && v != value) {
+                let option = key.replace('_', "-");
+                let what = format!("--{option} {value} and --set {key}={other} contradict each other");
+                return Err(Error::usage(what, "give one of them"));
             }
+            setup.set_text(key, value)?;
         }
         for (key, value) in &self.set {
             setup.set_text(key, value)?;
         }
         Ok(setup)
     }
+}
+
+/// The help of `--channel` where one channel is worked on.
+fn one_channel(channel: clap::Arg) -> clap::Arg {
+    channel.help("Channel to work on [default: the first numeric column that is neither time nor truth]")
 }
 
 fn pair(text: &str) -> std::result::Result<(String, String), String> {

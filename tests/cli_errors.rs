@@ -47,6 +47,12 @@ fn refused(cases: &[(&str, &[&str])]) {
 }
 
 #[test]
+fn one_setting_with_two_values() {
+    let words = format!("clean demo.csv --max-gap 3 --set max_gap=off {OUTPUTS}");
+    refused(&[(&words, &["--max-gap 3", "max_gap=off", "give one of them"])]);
+}
+
+#[test]
 fn files_that_are_no_records() {
     let case = |file: &str| format!("clean {file} {OUTPUTS}");
     let (folder, empty, binary, header, words, gone) = (

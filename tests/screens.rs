@@ -5,6 +5,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
 
+#[path = "screens/matrix.rs"]
+mod matrix;
 mod workbench;
 
 use insta::{assert_debug_snapshot, assert_snapshot};

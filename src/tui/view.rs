@@ -28,6 +28,9 @@ mod recover;
 mod second;
 mod title;
 
+/// What panels say that need a result while there is none: nothing flagged would be an answer.
+const NOT_JUDGED: &str = "not judged yet";
+
 /// Draws the workbench.
 pub fn view(model: &Model, frame: &mut Frame<'_>) {
     let area = frame.area();

@@ -10,7 +10,7 @@ use super::super::model::{Model, Unit};
 use super::super::plot::{FlagState, Glyphs};
 use super::super::update::mark_at;
 use super::queue::ratio_text;
-use super::{clear, compare, fit, heading, several_days, short};
+use super::{NOT_JUDGED, clear, compare, fit, heading, several_days, short};
 use crate::method::{Direction, Verdict};
 use crate::plot::{Drawn, state};
 use crate::session::Mark;
@@ -67,6 +67,7 @@ fn heading_words(model: &Model, mark: Option<&Mark>) -> Vec<Span<'static>> {
     let at = mark.map(head).and_then(|head| queue.iter().position(|p| *p == head));
     let place = match at {
         Some(at) => format!("{} of {}  ", at + 1, queue.len()),
+        None if model.state().drawn.is_none() => format!("{NOT_JUDGED}  "),
         None => format!("none here, {} in all  ", queue.len()),
     };
     let mut spans = vec![Span::styled(place, theme.dim)];

@@ -9,7 +9,7 @@ use super::super::action::Panel;
 use super::super::model::LowerKind;
 use super::super::plot::{HistogramPlot, Pyramid, ResidualPlot, StepPlot, TracePlot, VotesPlot};
 use super::plots::Plots;
-use super::{compare, heading_named, short, thousands};
+use super::{NOT_JUDGED, compare, heading_named, short, thousands};
 use crate::plot::{Drawn, Histogram, Tally};
 use crate::session::Ballot;
 
@@ -55,7 +55,8 @@ impl Plots<'_> {
         let scale = if log { ", log scale" } else { "" };
         let words = format!("{what} {}, flagged from {}{scale}  ", self.unit(), short(threshold));
         widget.render(area, buffer);
-        vec![self.dim(words)]
+        // A threshold without a result would be that of no method.
+        vec![self.dim(if drawn.is_some() { words } else { NOT_JUDGED.into() })]
     }
 
     fn histogram(&self, area: Rect, buffer: &mut Buffer) -> Vec<Words<'static>> {

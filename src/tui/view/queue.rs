@@ -10,7 +10,7 @@ use super::super::layout::queue_rows;
 use super::super::model::{Group, Model, Sort, Unit};
 use super::super::plot::{FlagState, Glyphs};
 use super::super::update::{mark_at, queue};
-use super::{clear, heading, several_days, thousands};
+use super::{NOT_JUDGED, clear, heading, several_days, thousands};
 use crate::plot::state;
 use crate::track::Series;
 
@@ -31,7 +31,8 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     let words = [Span::styled(format!("{by}  {} {what} ", thousands(all.len())), theme.dim)];
     let mut body = heading(model, Panel::Queue, &words, area, buffer);
     if all.is_empty() {
-        Line::styled(" nothing is flagged", theme.dim).render(body, buffer);
+        let words = if model.state().drawn.is_some() { "nothing is flagged" } else { NOT_JUDGED };
+        Line::styled(format!(" {words}"), theme.dim).render(body, buffer);
         return;
     }
     let rows = queue_rows(area);
