@@ -18,7 +18,17 @@ impl From<Stopped> for crate::error::Error {
 
 /// Asked by a computation whether anybody still waits for it.
 #[derive(Debug, Clone, Default)]
-pub struct Stop(Option<(Arc<AtomicU64>, u64)>);
+pub struct Stop(Wanted);
+
+#[derive(Debug, Clone, Default)]
+enum Wanted {
+    #[default]
+    Always,
+    /// As long as the number is this one.
+    While(Arc<AtomicU64>, u64),
+    /// For so many more looks.
+    Looks(Arc<AtomicU64>),
+}
 
 impl Stop {
     /// How many samples a loop may handle between two calls of [`Stop::check`]: well under a millisecond of work.
@@ -27,19 +37,32 @@ impl Stop {
     /// Work that runs to its end.
     #[must_use]
     pub fn never() -> Self {
-        Self(None)
+        Self(Wanted::Always)
     }
 
     /// Work of `generation`, wanted for as long as `newest` holds that number.
     #[must_use]
     pub fn when_superseded(newest: Arc<AtomicU64>, generation: u64) -> Self {
-        Self(Some((newest, generation)))
+        Self(Wanted::While(newest, generation))
+    }
+
+    /// Work that is wanted for so many looks and no longer: `left` says how many of them were not taken. With it a
+    /// test sees how often a computation looks.
+    #[must_use]
+    pub fn after_looks(left: Arc<AtomicU64>) -> Self {
+        Self(Wanted::Looks(left))
     }
 
     /// True when the work is no longer wanted.
     #[must_use]
     pub fn requested(&self) -> bool {
-        self.0.as_ref().is_some_and(|(newest, mine)| newest.load(Ordering::Relaxed) != *mine)
+        match &self.0 {
+            Wanted::Always => false,
+            Wanted::While(newest, mine) => newest.load(Ordering::Relaxed) != *mine,
+            Wanted::Looks(left) => {
+                left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1)).is_err()
+            }
+        }
     }
 
     /// An error when the work is no longer wanted.
@@ -72,5 +95,16 @@ mod tests {
         newest.store(4, Ordering::Relaxed);
         assert_eq!(stop.check(), Err(Stopped));
         assert_eq!(Stop::never().check(), Ok(()));
+    }
+
+    #[test]
+    fn looks_run_out() {
+        let left = Arc::new(AtomicU64::new(2));
+        let stop = Stop::after_looks(Arc::clone(&left));
+        assert_eq!(
+            [stop.check(), stop.check(), stop.check(), stop.check()],
+            [Ok(()), Ok(()), Err(Stopped), Err(Stopped)]
+        );
+        assert_eq!(left.load(Ordering::Relaxed), 0);
     }
 }

@@ -82,6 +82,28 @@ impl Recent {
         (&self.t[from..], &self.y[from..])
     }
 
+    /// How many of the newest points follow each other at even steps.
+    #[must_use]
+    #[inline]
+    pub fn even_points(&self) -> usize {
+        self.even
+    }
+
+    /// How many of these times follow the newest point and each other at even steps.
+    #[must_use]
+    pub fn even_ahead(&self, t: &[f64]) -> usize {
+        let Some(&newest) = self.t.last() else { return 0 };
+        let before = std::iter::once(&newest).chain(t);
+        let even = |(a, b): (&f64, &f64)| (b - a - self.interval).abs() <= EVEN * self.interval;
+        before.zip(t).take_while(|&pair| even(pair)).count()
+    }
+
+    /// The newest `m` values (all, when there are fewer), oldest first.
+    #[must_use]
+    pub fn newest_values(&self, m: usize) -> &[f64] {
+        self.newest(m).1
+    }
+
     /// How many even steps after the newest point `t` lies; none when that is no whole number.
     #[must_use]
     #[inline]
@@ -129,9 +151,17 @@ impl Extrapolator {
     #[inline]
     pub fn quick(&mut self, recent: &Recent, t: f64, ahead: Option<usize>) -> f64 {
         match ahead {
-            Some(ahead @ 1..=AHEAD) if recent.even >= self.points => self.weighted(recent, ahead),
+            Some(ahead @ 1..=AHEAD) if recent.even >= self.points => self.weighted(recent.newest(self.points).1, ahead),
             _ => self.exact(recent, t),
         }
+    }
+
+    /// [`Extrapolator::quick`] one even step after the last of these values, which are as many as it is fitted to or
+    /// more, at even times.
+    #[must_use]
+    #[inline]
+    pub fn next(&mut self, values: &[f64]) -> f64 {
+        self.weighted(&values[values.len() - self.points..], 1)
     }
 
     /// The fitted polynomial's value at `t`, on the times as they are.
@@ -148,11 +178,10 @@ impl Extrapolator {
     }
 
     #[inline]
-    fn weighted(&mut self, recent: &Recent, ahead: usize) -> f64 {
+    fn weighted(&mut self, y: &[f64], ahead: usize) -> f64 {
         if self.weights[ahead].is_empty() {
             self.weights[ahead] = even_weights(self.points, self.order, ahead);
         }
-        let (_, y) = recent.newest(self.points);
         // The weights add up to 1: with the newest value taken off, an offset costs no digits.
         let level = y[y.len() - 1];
         // Four sums at once: the order of the additions is fixed, and the processor need not wait for each.

@@ -1,5 +1,7 @@
 //! Two-sided variable-order polynomial test: section 6 of the methods page, \[000\].
 
+use rayon::prelude::*;
+
 use super::{About, Direction, Directions, Judged, Method, Own, Segment, TIE, Verdict, Way, shared};
 use crate::param::{Choice, Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
@@ -8,6 +10,7 @@ mod candidates;
 mod direction;
 mod repair;
 
+use candidates::NO_CANDIDATE;
 pub use candidates::{Candidate, Candidates, Closest, candidates};
 pub use direction::{OneWay, run};
 
@@ -163,7 +166,7 @@ impl Method for TwoSided {
                 (Some(forward?), Some(backward?))
             }
         };
-        Ok(together(segment, delta, forward, backward))
+        together(segment, delta, forward, backward, stop)
     }
 
     fn own_repair(&self, segment: &Segment<'_>, settings: &Settings, judged: &Judged, outliers: &[usize]) -> Vec<f64> {
@@ -194,26 +197,35 @@ impl Method for TwoSided {
 }
 
 /// The verdicts of both directions put together, or of the one that ran.
-fn together(segment: &Segment<'_>, delta: f64, forward: Option<OneWay>, backward: Option<OneWay>) -> Judged {
-    let n = segment.len();
+fn together(
+    segment: &Segment<'_>,
+    delta: f64,
+    forward: Option<OneWay>,
+    backward: Option<OneWay>,
+    stop: &Stop,
+) -> Result<Judged, Stopped> {
+    let all = || (0..segment.len()).into_par_iter().with_min_len(8192);
+    let expected: Vec<f64> = match (&forward, &backward) {
+        (Some(f), Some(b)) => all().map(|i| nearer(segment.y[i], f.expected[i], b.expected[i], TIE * delta)).collect(),
+        (one, other) => one.as_ref().or(other.as_ref()).map_or_else(Vec::new, |one| one.expected.clone()),
+    };
+    stop.check()?;
+    let said = |one: &Option<OneWay>, i: usize| one.as_ref().map(|one| one.said[i]);
+    let code = |one: &Option<OneWay>, i: usize| one.as_ref().map_or(NO_CANDIDATE, |one| one.code[i]);
+    let (mut verdicts, mut directions) = (Vec::new(), Vec::new());
+    all()
+        .map(|i| (said(&forward, i), said(&backward, i)))
+        .map(|(f, b)| (verdict(f, b), Directions { forward: f, backward: b }))
+        .unzip_into_vecs(&mut verdicts, &mut directions);
+    stop.check()?;
     let mut judged = Judged {
-        verdict: Vec::with_capacity(n),
-        expected: Vec::with_capacity(n),
-        tolerance: vec![delta; n],
-        directions: Vec::with_capacity(n),
-        repair_code: Vec::with_capacity(n),
+        verdict: verdicts,
+        directions,
+        repair_code: all().map(|i| [code(&forward, i), code(&backward, i)]).collect(),
+        tolerance: all().map(|i| if expected[i].is_nan() { f64::NAN } else { delta }).collect(),
+        expected,
         ..Judged::default()
     };
-    for i in 0..n {
-        let of = |one: &Option<OneWay>| {
-            one.as_ref().map_or((None, f64::NAN, 0), |w| (Some(w.said[i]), w.expected[i], w.code[i]))
-        };
-        let ((f, p, f_code), (b, q, b_code)) = (of(&forward), of(&backward));
-        judged.verdict.push(verdict(f, b));
-        judged.expected.push(nearer(segment.y[i], p, q, TIE * delta));
-        judged.directions.push(Directions { forward: f, backward: b });
-        judged.repair_code.push([f_code, b_code]);
-    }
     for (one, way) in [(forward, Way::Forward), (backward, Way::Backward)] {
         let Some(mut one) = one else { continue };
         debug_assert!(one.restarts.iter().all(|r| r.way == way));
@@ -224,12 +236,7 @@ fn together(segment: &Segment<'_>, delta: f64, forward: Option<OneWay>, backward
         }
         judged.restarts.append(&mut one.restarts);
     }
-    for (tolerance, expected) in judged.tolerance.iter_mut().zip(&judged.expected) {
-        if expected.is_nan() {
-            *tolerance = f64::NAN;
-        }
-    }
-    judged
+    Ok(judged)
 }
 
 /// What the directions make of a sample; none for a direction that did not run.

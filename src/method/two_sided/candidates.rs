@@ -1,7 +1,7 @@
 //! The polynomials that compete for each sample, and the model they make up (steps 1 and 2 of section 6).
 
 use crate::math::extrapolate::{Extrapolator, Recent, prediction_error};
-use crate::method::predictor::{Answer, Model, passed_over_by_third};
+use crate::method::predictor::{Answer, Batch, Model, passed_over_by_third};
 use crate::method::{TIE, reaches};
 use crate::param::Settings;
 
@@ -75,6 +75,10 @@ pub struct Closest {
 pub struct Candidates {
     list: Vec<(Candidate, Extrapolator)>,
     recent: Recent,
+    /// Points of the candidate that has most.
+    most: usize,
+    /// The newest values and those to come, side by side.
+    stretch: Vec<f64>,
     /// Samples in a start group.
     start: usize,
     delta: f64,
@@ -100,6 +104,8 @@ impl Candidates {
             start: settings.whole("start").max(4).max(smallest),
             list: list.into_iter().map(|c| (c, Extrapolator::new(c.order, c.points))).collect(),
             recent: Recent::new(room, interval),
+            most: room,
+            stretch: Vec::with_capacity(room + BATCH),
             delta,
             start_limit: delta.max(START_SCALES * sigma),
             t: f64::NAN,
@@ -124,10 +130,9 @@ impl Candidates {
     }
 
     /// The prediction closest to `y` (within 1e-9 delta: the higher order), its distance, and whether the rounding of
-    /// even times could change what follows from them.
+    /// even times could change what follows from them. `newest` is the value of the newest point.
     #[inline]
-    fn closest_to(&self, y: f64) -> (Closest, f64, bool) {
-        let newest = self.recent.newest_value();
+    fn closest_to(&self, y: f64, newest: f64) -> (Closest, f64, bool) {
         let tie = TIE * self.delta;
         let (mut best, mut distance) = (Closest { expected: f64::NAN, code: NO_CANDIDATE }, f64::INFINITY);
         let (mut margin, mut doubtful) = (0.0_f64, false);
@@ -176,12 +181,12 @@ impl Model for Candidates {
 
     #[inline]
     fn answer(&mut self, t: f64, y: f64) -> Answer {
-        let (mut closest, mut distance, doubtful) = self.closest_to(y);
+        let (mut closest, mut distance, doubtful) = self.closest_to(y, self.recent.newest_value());
         if doubtful {
             // Too close to call by weights for exactly even times: the verdict must not depend on the way it was
             // reached.
             self.extrapolate(true);
-            (closest, distance, _) = self.closest_to(y);
+            (closest, distance, _) = self.closest_to(y, self.recent.newest_value());
         }
         self.closest = closest;
         if reaches(distance, self.delta) {
@@ -189,5 +194,39 @@ impl Model for Candidates {
         }
         self.recent.push(t, y);
         Answer::Accepts
+    }
+}
+
+/// Samples looked at in one go.
+const BATCH: usize = 128;
+
+impl Batch for Candidates {
+    fn take_in(&mut self, t: &[f64], y: &[f64], _: f64, said: &mut [Closest]) -> usize {
+        // While the points of every candidate are even, all of them take part by their weights.
+        if self.recent.even_points() < self.most {
+            return 0;
+        }
+        let even = self.recent.even_ahead(&t[..t.len().min(BATCH)]);
+        // One stretch of memory, written well before it is read: a read that meets the write of the sample before
+        // waits until that is done with.
+        self.stretch.clear();
+        self.stretch.extend_from_slice(self.recent.newest_values(self.most));
+        self.stretch.extend_from_slice(&y[..even]);
+        let stretch = std::mem::take(&mut self.stretch);
+        let mut taken = 0;
+        for (values, &y) in stretch.windows(self.most).zip(&y[..even]) {
+            for ((_, extrapolator), predicted) in self.list.iter_mut().zip(&mut self.predicted) {
+                *predicted = extrapolator.next(values);
+            }
+            let (closest, distance, doubtful) = self.closest_to(y, values[values.len() - 1]);
+            if doubtful || reaches(distance, self.delta) {
+                break;
+            }
+            said[taken] = closest;
+            taken += 1;
+        }
+        self.stretch = stretch;
+        t[..taken].iter().zip(y).for_each(|(&t, &y)| self.recent.push(t, y));
+        taken
     }
 }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::candidates::{Candidates, Closest, NO_CANDIDATE};
-use crate::method::predictor::{Answer, Engine, Sink};
+use crate::method::predictor::{Answer, Engine, Sink, feed};
 use crate::method::{Direction, Restart, Segment, Way};
 use crate::stop::{Stop, Stopped};
 
@@ -68,6 +68,18 @@ impl Sink<Closest> for OneWay {
         }
     }
 
+    fn accepted(&mut self, at: usize, predictions: &[Closest]) {
+        let (n, k) = (self.said.len(), predictions.len());
+        let stretch = if self.way == Way::Forward { at..at + k } else { n - at - k..n - at };
+        self.said[stretch.clone()].fill(Direction::Normal);
+        let expected = self.expected[stretch].iter_mut();
+        let values = predictions.iter().map(|p| p.expected);
+        match self.way {
+            Way::Forward => expected.zip(values).for_each(|(expected, value)| *expected = value),
+            Way::Backward => expected.rev().zip(values).for_each(|(expected, value)| *expected = value),
+        }
+    }
+
     fn lost(&mut self, run: Range<usize>) {
         // The run stays abnormal as the lost model left it, as far as no new model gets hold of it.
         self.restarts.push(Restart { at: self.position(run.start), way: self.way });
@@ -82,19 +94,6 @@ pub fn run(model: Candidates, segment: &Segment<'_>, max_run: usize, way: Way, s
     let n = segment.len();
     let mut page = OneWay::new(n, way);
     let mut engine = Engine::new(model, segment.interval, max_run);
-    match way {
-        Way::Forward => {
-            for i in 0..n {
-                stop.check_at(i)?;
-                engine.push(segment.t[i], segment.y[i], &mut page);
-            }
-        }
-        Way::Backward => {
-            for i in (0..n).rev() {
-                stop.check_at(i)?;
-                engine.push(-segment.t[i], segment.y[i], &mut page);
-            }
-        }
-    }
+    feed(&mut engine, segment.t, |i| segment.y[i], way, &mut page, stop)?;
     Ok(page)
 }
