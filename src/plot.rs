@@ -17,6 +17,7 @@ pub(crate) mod scale;
 mod sides;
 mod steps;
 mod stroke;
+mod ticks;
 pub(crate) mod view;
 
 pub use columns::{ColumnSummary, Columns, Curve, Grid, Trace};
@@ -28,4 +29,5 @@ pub use pyramid::{Pyramid, Span};
 pub use scale::{YFit, YScale, widened};
 pub use sides::{Side, Sides, step};
 pub use steps::{StepColumn, Steps};
+pub use ticks::{TickSteps, TimeTicks, tick_step, ticks};
 pub use view::{Axis, View};

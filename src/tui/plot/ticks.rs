@@ -5,41 +5,11 @@ use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::labels::{DECIMAL, round_step};
 use super::paint::{Paint, right_of_margin};
 use super::view::View;
+use crate::plot::ticks;
+pub use crate::plot::{TickSteps, tick_step};
 use crate::tui::theme::Theme;
-
-/// Which steps count as round.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TickSteps {
-    /// 1, 2 and 5 times powers of ten: seconds of a file's own, sample numbers.
-    Decimal,
-    /// Parts of minutes, hours and days: calendar times and times of day.
-    Clock,
-}
-
-/// Round steps of a clock from a second to a day, in seconds.
-const CLOCK: [f64; 17] = [
-    1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 900.0, 1800.0, 3600.0, 7200.0, 10800.0, 21600.0,
-    43200.0,
-];
-const DAY: f64 = 86400.0;
-
-/// The smallest round step whose labels of `label_width` columns leave room between them. A caller needs it to give
-/// labels enough digits.
-#[must_use]
-pub fn tick_step(view: View, width: u16, label_width: u16, steps: TickSteps) -> f64 {
-    let room = f64::from(label_width) + 3.0;
-    let least = view.width() * room / f64::from(width.max(1));
-    match steps {
-        TickSteps::Clock if least > 1.0 => {
-            let step = CLOCK.into_iter().find(|step| *step >= least);
-            step.unwrap_or_else(|| if least <= DAY { DAY } else { DAY * round_step(least / DAY, &DECIMAL) })
-        }
-        TickSteps::Clock | TickSteps::Decimal => round_step(least, &DECIMAL),
-    }
-}
 
 /// The row of labels under a plot with a margin.
 #[derive(Clone)]
@@ -68,9 +38,7 @@ impl AxisLabels<'_> {
             return Vec::new();
         }
         let step = tick_step(self.view, width, self.label_width, self.steps);
-        let first = ((self.view.from + self.phase) / step).ceil();
-        let x = |i: u16| (first + f64::from(i)) * step - self.phase;
-        (0..width).map(x).take_while(|x| *x <= self.view.to).collect()
+        ticks(self.view, step, self.phase, width)
     }
 }
 
@@ -105,15 +73,6 @@ impl Widget for AxisLabels<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn clock_steps_are_those_of_a_clock_and_decimal_ones_of_a_ruler() {
-        let step = |width, steps| tick_step(View { from: 0.0, to: width }, 80, 8, steps);
-        assert_eq!(step(3600.0, TickSteps::Clock), 600.0);
-        assert_eq!(step(3600.0, TickSteps::Decimal), 500.0);
-        assert_eq!(step(10.0 * DAY, TickSteps::Clock), 2.0 * DAY);
-        assert_eq!(step(0.7, TickSteps::Clock), 0.1);
-    }
 
     #[test]
     fn labels_are_round_on_the_clock_of_the_record() {

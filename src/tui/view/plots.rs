@@ -10,11 +10,11 @@ use super::super::layout::{TraceParts, trace_parts};
 use super::super::model::{Model, YMode};
 use super::super::picture::Picture;
 use super::super::plot::{
-    AxisLabels, Columns, Cursor, FlagRail, Layers, Overview, SideMarks, SideRail, TickSteps, TracePlot, View, tick_step,
+    AxisLabels, Columns, Cursor, FlagRail, Layers, Overview, SideMarks, SideRail, TickSteps, TracePlot, View,
 };
 use super::super::update::layer_names;
 use super::{compare, heading, thousands};
-use crate::track::TimeFormat;
+use crate::plot::TimeTicks;
 
 /// The plots of the channel on the screen.
 pub(super) struct Plots<'a> {
@@ -110,31 +110,9 @@ impl<'a> Plots<'a> {
             return;
         }
         let time = &self.model.track.time;
-        let calendar = time.date(0.0).is_some();
-        let clock = calendar || time.format == TimeFormat::Clock;
-        let steps = if clock { TickSteps::Clock } else { TickSteps::Decimal };
-        let width = TracePlot::plot_area(row).width;
-        // Days need the date, short steps the fraction of a second.
-        let step = tick_step(view, width, 12, steps);
-        let digits = decimals(step);
-        let label_width = if clock { 8 + if digits > 0 { digits + 1 } else { 0 } } else { 10 };
-        let label = |x: f64| {
-            let date = if step >= 43_200.0 { time.date(x) } else { None };
-            date.unwrap_or_else(|| time.label(x, digits))
-        };
-        #[expect(clippy::cast_precision_loss, reason = "the remainder of a day fits a double")]
-        let phase = if clock {
-            (time.origin_ns.rem_euclid(86_400_000_000_000)) as f64 / 1e9
-        } else {
-            time.origin_ns as f64 / 1e9
-        };
-        let unit = match time.format {
-            TimeFormat::Iso | TimeFormat::YearLast { .. } | TimeFormat::Epoch { .. } => "UTC",
-            TimeFormat::Seconds => "s",
-            TimeFormat::SampleNumber => "sample",
-            TimeFormat::Elapsed { .. } | TimeFormat::Clock => "",
-        };
-        let label_width = u16::try_from(label_width).unwrap_or(12);
+        let ticks = TimeTicks::new(time, view, TracePlot::plot_area(row).width);
+        let label = |x: f64| ticks.label(time, x);
+        let TimeTicks { steps, phase, label_width, unit, .. } = ticks;
         let theme = &self.model.theme;
         AxisLabels { view, steps, phase, label_width, label: &label, unit, theme }.render(row, buffer);
     }
@@ -154,9 +132,4 @@ pub(super) fn take_bottom(rest: &mut Rect) -> Rect {
     let height = rest.height.min(1);
     rest.height -= height;
     Rect { y: rest.y + rest.height, height, ..*rest }
-}
-
-/// Decimals that tell labels `step` seconds apart from each other.
-fn decimals(step: f64) -> usize {
-    (0..9).find(|&d| (step * 10_f64.powi(d)).fract().abs() < 1e-9).map_or(9, |d| usize::try_from(d).unwrap_or(0))
 }
