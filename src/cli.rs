@@ -84,7 +84,7 @@ pub enum Command {
     /// Detect and repair wild points of one file or many.
     ///
     /// With several files the outputs are folders (`-o DIR/`, `--flags DIR/`, ...): the cleaned file keeps its name,
-    /// the others are NAME.flags.csv, NAME.diagnostics.csv and NAME.toml. A file that fails does not stop the
+    /// the others are NAME.flags.csv, NAME.diagnostics.csv, NAME.html and NAME.toml. A file that fails does not stop the
     /// others; the exit status is 2 then.
     Clean {
         /// The records.
@@ -114,7 +114,7 @@ pub enum Command {
         #[arg(required = true, value_name = "SESSION")]
         sessions: Vec<PathBuf>,
         /// Compare with the result that each session recorded; write nothing. Exit status 1 when one differs.
-        #[arg(long, conflicts_with_all = ["output", "flags", "diagnostics"])]
+        #[arg(long, conflicts_with_all = ["output", "flags", "diagnostics", "report"])]
         check: bool,
         /// Go on although the data are not those of the session.
         #[arg(long)]
@@ -269,6 +269,9 @@ pub struct OutputArgs {
     /// Write a row for every sample (CSV).
     #[arg(long, value_name = "DIAG")]
     pub diagnostics: Option<PathBuf>,
+    /// Write a report with pictures: one HTML file (.html) or one Markdown file (.md).
+    #[arg(long, value_name = "REPORT")]
+    pub report: Option<PathBuf>,
     /// Overwrite existing outputs (never the input).
     #[arg(long)]
     pub force: bool,

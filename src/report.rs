@@ -1,6 +1,7 @@
 //! Tables and summaries of a result.
 
 use std::io::Write;
+use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::method::Verdict;
@@ -9,15 +10,37 @@ use crate::track::{Cells, Series, Track, for_each_row};
 
 mod diagnostics;
 mod flags;
+mod html;
 mod inspection;
+mod markdown;
+mod page;
 mod reproduction;
 mod summary;
+mod svg;
 
 pub use diagnostics::diagnostics;
 pub use flags::flags;
-pub use inspection::{ChannelFacts, Inspection};
+pub use inspection::{ChannelFacts, Inspection, layout};
+pub use page::ReportForm;
 pub use reproduction::reproduction_text;
 pub use summary::{ChannelSummary, Summary};
+
+/// Writes the report on a result that goes to `path`, in the form that its ending asks for: what the record is, the
+/// settings, the counts, pictures, the flags and decisions with their evidence, and how to get the result again. The
+/// same result makes the same bytes.
+///
+/// # Errors
+/// [`Error::Usage`] for an ending without a form; when the input cannot be read again, or is no longer the one that
+/// was loaded; when the report cannot be written.
+pub fn report(track: &Track, session: &Session, analysed: &Analysed, path: &Path, out: &mut dyn Write) -> Result<()> {
+    let form = ReportForm::of(path)?;
+    let page = page::Page::of(track, session, analysed, path)?;
+    let text = match form {
+        ReportForm::Html => html::html(&page),
+        ReportForm::Markdown => markdown::markdown(&page),
+    };
+    out.write_all(text.as_bytes()).map_err(Error::io("write", path))
+}
 
 /// One channel of a result, walked row by row.
 struct Walk<'a> {

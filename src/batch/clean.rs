@@ -9,7 +9,7 @@ use super::targets::{Target, file_name, targets};
 use super::{Ending, set_threads, tell};
 use crate::cli::{OutputArgs, Shared};
 use crate::error::{Error, Result};
-use crate::report::{Summary, diagnostics, flags};
+use crate::report::{Summary, diagnostics, flags, report};
 use crate::session::{Analysed, Session, Setup, document, write_cleaned};
 use crate::stop::Stop;
 use crate::track::{Outputs, Source, Track, load};
@@ -95,6 +95,9 @@ pub(super) fn stage(
     }
     if let Some(path) = &outputs.diagnostics {
         files.stage(path, |w| diagnostics(track, session, analysed, w))?;
+    }
+    if let Some(path) = &outputs.report {
+        files.stage(path, |w| report(track, session, analysed, path, w))?;
     }
     Ok(())
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::OutputArgs;
 use crate::error::{Error, Result};
+use crate::report::ReportForm;
 
 /// Where the outputs of one input go.
 #[derive(Debug, Clone)]
@@ -40,7 +41,13 @@ pub(super) fn targets(
     name: impl Fn(&Path) -> String,
 ) -> Result<Vec<Target>> {
     let several = inputs.len() > 1;
-    let named = [outputs.output.as_deref(), outputs.flags.as_deref(), outputs.diagnostics.as_deref(), session];
+    let named = [
+        outputs.output.as_deref(),
+        outputs.flags.as_deref(),
+        outputs.diagnostics.as_deref(),
+        outputs.report.as_deref(),
+        session,
+    ];
     for path in named.into_iter().flatten() {
         if several && !is_folder(path, several) {
             return Err(Error::usage(
@@ -48,6 +55,10 @@ pub(super) fn targets(
                 format!("name a folder: {}/", path.display()),
             ));
         }
+    }
+    // Known before anything is computed: the ending of a report says its form.
+    if let Some(report) = outputs.report.as_deref().filter(|path| !is_folder(path, several)) {
+        ReportForm::of(report)?;
     }
     let folders: Vec<PathBuf> =
         named.into_iter().flatten().filter(|p| is_folder(p, several)).map(Path::to_path_buf).collect();
@@ -74,6 +85,7 @@ pub(super) fn targets(
         let outputs = OutputArgs {
             flags: place(outputs.flags.as_deref(), format!("{stem}.flags.csv"))?,
             diagnostics: place(outputs.diagnostics.as_deref(), format!("{stem}.diagnostics.csv"))?,
+            report: place(outputs.report.as_deref(), format!("{stem}.html"))?,
             output: place(outputs.output.as_deref(), cleaned)?,
             ..outputs.clone()
         };

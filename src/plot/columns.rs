@@ -191,6 +191,18 @@ impl Columns {
         here.start.max(selection.start) < here.end.min(selection.end)
     }
 
+    /// The positions in each column of dots, half a column of cells wide, from left to right.
+    #[must_use]
+    pub fn dot_columns(&self) -> Vec<Range<usize>> {
+        self.starts.windows(2).map(|edges| edges[0]..edges[1]).collect()
+    }
+
+    /// For each column of cells, whether it lies in a stretch of lost samples.
+    #[must_use]
+    pub fn gap_columns(&self) -> &[bool] {
+        &self.gaps
+    }
+
     /// The flag drawn in a cell.
     pub(crate) fn flag_cell(&self, column: usize, row: usize) -> Option<FlagState> {
         if column >= usize::from(self.grid.width) {

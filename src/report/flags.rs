@@ -5,6 +5,7 @@ use std::io::Write;
 use super::{Walk, cell, time_text, walk, write_row};
 use crate::error::{Error, Result};
 use crate::method::{Direction, Verdict};
+use crate::plot::FlagState;
 use crate::session::{Analysed, Session};
 use crate::track::Track;
 
@@ -47,6 +48,87 @@ pub fn flags(track: &Track, session: &Session, analysed: &Analysed, out: &mut dy
 }
 
 fn of_sample(session: &Session, channel: &Walk<'_>, row: usize, position: usize) -> Option<[String; 17]> {
+    let e = evidence(session, channel, row, position)?;
+    let word = |d: Option<Direction>| d.map_or("", Direction::word).to_owned();
+    Some([
+        e.row.to_string(),
+        String::new(),
+        channel.name.to_owned(),
+        cell(Some(e.raw)),
+        e.verdict.word().to_owned(),
+        e.run.map_or("", |r| if r.length == 1 { "isolated" } else { "patch" }).to_owned(),
+        e.run.map(|r| r.start.to_string()).unwrap_or_default(),
+        e.run.map(|r| r.length.to_string()).unwrap_or_default(),
+        cell(e.expected),
+        cell(e.tolerance),
+        cell(e.ratio()),
+        word(e.forward),
+        word(e.backward),
+        cell(e.clean),
+        e.action().to_owned(),
+        if e.decided { "analyst" } else { "method" }.to_owned(),
+        e.note,
+    ])
+}
+
+/// All that is known about a sample that is not normal or that somebody decided on.
+#[derive(Debug, Clone)]
+pub(super) struct Evidence {
+    /// Data row, from 1.
+    pub(super) row: usize,
+    /// The measured value.
+    pub(super) raw: f64,
+    /// What holds.
+    pub(super) verdict: Verdict,
+    /// How it is marked in pictures; none for a sample that nobody marks.
+    pub(super) state: Option<FlagState>,
+    /// The run of outliers that it belongs to.
+    pub(super) run: Option<InRun>,
+    /// The expected value.
+    pub(super) expected: Option<f64>,
+    /// The tolerance, above 0.
+    pub(super) tolerance: Option<f64>,
+    /// What the extrapolation from before says.
+    pub(super) forward: Option<Direction>,
+    /// What the extrapolation from after says.
+    pub(super) backward: Option<Direction>,
+    /// The value in the cleaned file; none where the cell is empty.
+    pub(super) clean: Option<f64>,
+    /// True when the analyst decided, false when only the method did.
+    pub(super) decided: bool,
+    /// The analyst's note; often empty.
+    pub(super) note: String,
+}
+
+/// The place of a sample in a run of outliers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct InRun {
+    /// Data row (from 1) of the first.
+    pub(super) start: usize,
+    /// How many they are.
+    pub(super) length: usize,
+    /// The place of the sample among them, from 1.
+    pub(super) place: usize,
+}
+
+impl Evidence {
+    /// |raw - expected| / tolerance.
+    pub(super) fn ratio(&self) -> Option<f64> {
+        self.expected.zip(self.tolerance).map(|(p, h)| (self.raw - p).abs() / h)
+    }
+
+    /// What is done with the sample: `repaired`, `removed` or `kept`.
+    pub(super) fn action(&self) -> &'static str {
+        match (self.verdict, self.clean) {
+            (Verdict::Outlier, Some(_)) => "repaired",
+            (Verdict::Outlier, None) => "removed",
+            _ => "kept",
+        }
+    }
+}
+
+/// What is known about the sample of `row` at `position`; none for a normal one that nobody decided on.
+pub(super) fn evidence(session: &Session, channel: &Walk<'_>, row: usize, position: usize) -> Option<Evidence> {
     let outcome = channel.outcome;
     let judged = &outcome.detection.judged;
     let mark = outcome.mark(position);
@@ -58,35 +140,24 @@ fn of_sample(session: &Session, channel: &Walk<'_>, row: usize, position: usize)
         .and_then(|m| m.ruling)
         .and_then(|_| u32::try_from(row).ok())
         .and_then(|row| session.plans[channel.plan].decisions.get(row));
-    let run = outcome.run(position);
-    let raw = channel.series.y[position];
-    let expected = judged.expected.get(position).copied().filter(|p| p.is_finite());
-    let tolerance = judged.tolerance.get(position).copied().filter(|h| *h > 0.0);
     let directions = judged.directions.get(position);
-    let clean = channel.clean(position);
-    let action = match (verdict, clean) {
-        (Verdict::Outlier, Some(_)) => "repaired",
-        (Verdict::Outlier, None) => "removed",
-        _ => "kept",
+    let in_run = |r: &crate::session::Run| InRun {
+        start: channel.series.row(r.start) + 1,
+        length: r.length,
+        place: position - r.start + 1,
     };
-    let word = |d: Option<Direction>| d.map_or("", Direction::word).to_owned();
-    Some([
-        (row + 1).to_string(),
-        String::new(),
-        channel.name.to_owned(),
-        cell(Some(raw)),
-        verdict.word().to_owned(),
-        run.map_or("", |r| if r.length == 1 { "isolated" } else { "patch" }).to_owned(),
-        run.map(|r| (channel.series.row(r.start) + 1).to_string()).unwrap_or_default(),
-        run.map(|r| r.length.to_string()).unwrap_or_default(),
-        cell(expected),
-        cell(tolerance),
-        cell(expected.zip(tolerance).map(|(p, h)| (raw - p).abs() / h)),
-        word(directions.and_then(|d| d.forward)),
-        word(directions.and_then(|d| d.backward)),
-        cell(clean),
-        action.to_owned(),
-        if decision.is_some() { "analyst" } else { "method" }.to_owned(),
-        decision.map(|d| d.note.clone()).unwrap_or_default(),
-    ])
+    Some(Evidence {
+        row: row + 1,
+        raw: channel.series.y[position],
+        verdict,
+        state: mark.and_then(crate::plot::state),
+        run: outcome.run(position).map(in_run),
+        expected: judged.expected.get(position).copied().filter(|p| p.is_finite()),
+        tolerance: judged.tolerance.get(position).copied().filter(|h| *h > 0.0),
+        forward: directions.and_then(|d| d.forward),
+        backward: directions.and_then(|d| d.backward),
+        clean: channel.clean(position),
+        decided: decision.is_some(),
+        note: decision.map(|d| d.note.clone()).unwrap_or_default(),
+    })
 }

@@ -187,7 +187,7 @@ impl Inspection {
 }
 
 /// Six significant digits, without an exponent where that is readable.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let size = x.abs();
     if size != 0.0 && !(1e-4..1e9).contains(&size) {
         return format!("{x:.4e}");
@@ -250,7 +250,9 @@ fn fault_facts(faults: &Faults) -> Vec<FaultFacts> {
     facts.map(|(what, f)| FaultFacts { what, count: f.count, first: f.first.clone() }).collect()
 }
 
-fn layout(track: &Track) -> String {
+/// How the text of a record is laid out, in words.
+#[must_use]
+pub fn layout(track: &Track) -> String {
     let d = &track.dialect;
     let delimiter = match d.delimiter {
         Delimiter::Byte(b',') => "commas",

@@ -173,7 +173,8 @@ impl Summary {
     }
 }
 
-fn score_line(s: &Scores) -> String {
+/// A score in a line.
+pub(super) fn score_line(s: &Scores) -> String {
     let mut line = format!("{} missed, {} false", s.samples.missed, s.samples.false_alarms);
     if let Some(rate) = s.recall {
         let _ = write!(line, ", rejection rate {:.1} %", 100.0 * rate);

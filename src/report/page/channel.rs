@@ -1,0 +1,103 @@
+//! What a report says of a channel.
+
+use super::super::summary::{ChannelSummary, score_line};
+use super::super::svg::figures;
+use super::flagged::Flagged;
+use super::{Section, Table};
+use crate::param::{Param, Settings, Value};
+use crate::repair;
+use crate::session::{Outcome, Plan, Preset};
+use crate::track::{Samples, Track};
+
+/// The section about the channel of `plan`, with its table of flags.
+pub(super) fn section(
+    track: &Track,
+    plan: &Plan,
+    (index, samples, outcome): (usize, &Samples, &Outcome),
+    summary: &ChannelSummary,
+    (flags, rest): Flagged,
+) -> Section {
+    let channel = &track.channels[index];
+    let about = plan.setup.method.about();
+    let series = samples.series(channel, &track.time);
+    let unit = if channel.unit.is_empty() { String::new() } else { format!(" [{}]", channel.unit) };
+    let rate = plan.setup.rate.as_ref().map_or(String::new(), |rate| format!(", with the rate {rate}"));
+    let chosen = repair::chosen(&plan.setup.repair);
+    let mut notes = summary.warnings.clone();
+    notes.extend(summary.score.as_ref().map(|s| format!("against the truth column: {}", score_line(s))));
+    notes.extend(
+        summary
+            .restarts
+            .iter()
+            .take(20)
+            .map(|r| format!("the model was lost at row {} ({}), {}, and started again", r.row, r.time, r.direction)),
+    );
+    if summary.restarts.len() > 20 {
+        notes.push(format!("… and {} times more", summary.restarts.len() - 20));
+    }
+    Section {
+        title: format!("{}{unit}", plan.channel),
+        method: format!(
+            "{} ({}; {}){rate}. Repair {}: {}.",
+            about.id,
+            about.name,
+            about.source,
+            chosen.id,
+            chosen.help.trim_end_matches('.')
+        ),
+        counts: counts(summary),
+        settings: settings(plan, &channel.unit),
+        notes,
+        figures: figures(track, series, outcome),
+        flags,
+        rest,
+    }
+}
+
+fn counts(summary: &ChannelSummary) -> Vec<(String, String)> {
+    let n = summary.counts;
+    let all = [
+        (n.present, "samples", true),
+        (n.missing, "missing", false),
+        (summary.segments, "segments", true),
+        (n.flagged, "flagged", true),
+        (n.isolated, "isolated", false),
+        (n.patches, "patches", false),
+        (n.repaired, "repaired", false),
+        (n.removed, "removed", false),
+        (n.filled, "filled", false),
+        (n.suspects, "suspect", false),
+        (n.unchecked, "unchecked", false),
+        (n.decisions, "decided by the analyst", false),
+        (n.conflicts, "decisions against the method", false),
+    ];
+    let shown = all.into_iter().filter(|(count, _, always)| *always || *count > 0);
+    shown.map(|(count, what, _)| (what.to_owned(), count.to_string())).collect()
+}
+
+/// The settings that matter, and where they come from.
+fn settings(plan: &Plan, unit: &str) -> Table {
+    let head = vec![("setting", false), ("value", true), ("unit", false), ("", false), ("meaning", false)];
+    let method = plan.setup.method;
+    let (default, paper) = (Preset::Default.settings(method), Preset::Paper.settings(method));
+    let mut rows: Vec<Vec<String>> =
+        plan.setup.settings.mattering().map(|(p, v)| row(p, v, &default, Some(&paper))).collect();
+    let default = Settings::defaults(repair::PARAMS);
+    rows.extend(plan.setup.repair.mattering().map(|(p, v)| row(p, v, &default, None)));
+    // Where the unit is that of the channel, it is known here.
+    let known = rows.iter_mut().filter(|row| row[2] == "channel units" && !unit.is_empty());
+    known.for_each(|row| unit.clone_into(&mut row[2]));
+    Table { head, rows, marks: Vec::new() }
+}
+
+fn row(param: &Param, value: Value, default: &Settings, paper: Option<&Settings>) -> Vec<String> {
+    let is = |settings: &Settings| settings.get(param.key) == Some(value);
+    let origin = match (is(default), paper.is_some_and(is) && param.paper.is_some()) {
+        (true, true) => "default and paper",
+        (true, false) => "default",
+        (false, true) => "as in the paper",
+        (false, false) => "set",
+    };
+    let key = if param.key == repair::METHOD.key && paper.is_none() { "repair" } else { param.key };
+    vec![key.to_owned(), value.to_string(), param.unit.to_owned(), origin.to_owned(), param.help.to_owned()]
+}

@@ -1,0 +1,98 @@
+//! Pictures of a channel in SVG, from the same columns as those of the screen: a flag is never hidden.
+
+use crate::method::shared::MAX_GAP;
+use crate::plot::{Axis, Curve, Drawn, FlagState, Flags, Trace, View};
+use crate::session::Outcome;
+use crate::track::{Series, TimeAxis, Track};
+
+mod axes;
+mod close;
+mod curve;
+mod marks;
+mod picture;
+
+pub(super) use marks::STATES;
+
+/// A picture with the words under it.
+#[derive(Debug)]
+pub(super) struct Figure {
+    /// What it shows, as text.
+    pub(super) caption: String,
+    /// The `svg` element; its classes are styled by the page around it.
+    pub(super) svg: String,
+    /// True for one of several small pictures that stand side by side.
+    pub(super) small: bool,
+}
+
+/// Size of a picture in units of the SVG.
+#[derive(Debug, Clone, Copy)]
+struct Size {
+    width: u16,
+    height: u16,
+}
+
+/// What all pictures of a channel share.
+struct Subject<'a> {
+    time: &'a TimeAxis,
+    series: Series<'a>,
+    drawn: Drawn,
+    flags: Flags,
+    /// Neighbours further apart than so many seconds are not joined.
+    gap: f64,
+}
+
+/// The pictures of a channel: overview, trace, residual, and the largest wild points from near.
+pub(super) fn figures(track: &Track, series: Series<'_>, outcome: &Outcome) -> Vec<Figure> {
+    if series.is_empty() {
+        return Vec::new();
+    }
+    let drawn = Drawn::new(outcome.clone(), &series);
+    let flags = Flags::new(&drawn.flags(&series));
+    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+    let lost = outcome.detection.setup.settings.whole_or_off(MAX_GAP.key).map(|n| n as f64 + 1.5 - 1e-6);
+    let gap = lost.map_or(f64::INFINITY, |steps| steps * series.interval);
+    let subject = Subject { time: &track.time, series, drawn, flags, gap };
+    let mut figures = vec![picture::overview(&subject), picture::trace(&subject), picture::residual(&subject)];
+    figures.extend(close::largest(&subject));
+    figures
+}
+
+impl Subject<'_> {
+    fn axis(&self) -> Axis<'_> {
+        Axis::Time(&self.series.t)
+    }
+
+    fn whole(&self) -> View {
+        View::whole(self.axis())
+    }
+
+    /// Calls `with` with the trace of the channel, as the screen draws it.
+    fn with_trace<R>(&self, with: impl FnOnce(&Trace<'_>) -> R) -> R {
+        let d = &self.drawn;
+        let kept = |i: usize| d.kept_span(&self.series, i);
+        let expected = |i: usize| d.expected_span(i);
+        let band = |i: usize| d.band_span(i);
+        let repaired = |i: usize| d.repaired_span(i);
+        with(&Trace {
+            axis: self.axis(),
+            kept: Curve { pyramid: &d.kept, span: &kept },
+            flags: &self.flags,
+            expected: Some(Curve { pyramid: &d.expected, span: &expected }),
+            band: Some(Curve { pyramid: &d.band, span: &band }),
+            repaired: Some(Curve { pyramid: &d.repaired, span: &repaired }),
+            gap: self.gap,
+        })
+    }
+
+    /// Flags in a range of positions with their values.
+    fn flags_in(&self, positions: &std::ops::Range<usize>) -> Vec<(usize, FlagState)> {
+        let marks = &self.drawn.outcome.marks;
+        let from = marks.partition_point(|m| (m.position as usize) < positions.start);
+        let to = marks.partition_point(|m| (m.position as usize) < positions.end);
+        let of = |m: &crate::session::Mark| crate::plot::state(m).map(|state| (m.position as usize, state));
+        marks[from..to].iter().filter_map(of).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;
