@@ -20,6 +20,7 @@ mod notes;
 mod number;
 mod order;
 mod outputs;
+mod preview;
 mod printable;
 mod quick;
 mod rewrite;
@@ -42,6 +43,7 @@ pub(crate) use number::{Cell, Reading};
 pub use outputs::Outputs;
 #[cfg(test)]
 pub(crate) use outputs::faults;
+pub use preview::Preview;
 pub use printable::printable;
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;

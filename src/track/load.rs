@@ -17,7 +17,7 @@ use super::{
 use crate::error::{Error, Result};
 
 /// What the user tells about a file. What is not told is recognised.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct LoadOptions {
     /// The time column, by name or as `#3`; `sample` for the sample number. Recognised: the column that looks most
     /// like a time, otherwise the sample number.
