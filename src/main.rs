@@ -1,7 +1,6 @@
 //! Dispatch and exit status.
 
 use std::io::{IsTerminal, Write};
-use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -13,6 +12,7 @@ use wildpoint::session::{Analysed, Session, open_all};
 use wildpoint::stop::Stop;
 use wildpoint::track::{Source, load};
 use wildpoint::tui::config::{self, Config};
+use wildpoint::tui::files::is_session;
 use wildpoint::tui::journal::folder;
 use wildpoint::tui::plot::Glyphs;
 use wildpoint::tui::theme::{ColorDepth, Theme};
@@ -102,11 +102,6 @@ fn opening(cli: &Cli) -> Result<Opening> {
 /// The configuration that the command line asks for.
 fn configured(args: &ConfigArgs) -> Result<Config> {
     if args.no_config { Ok(Config::default()) } else { Config::find(args.config.as_deref()) }
-}
-
-/// Sessions are told from records by their name.
-fn is_session(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }
 
 /// What the command line says holds; then the environment's NO_COLOR, the configuration, and what the terminal says.

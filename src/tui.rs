@@ -3,7 +3,7 @@
 //! Keys, sizes and results become [`message::Message`]s; [`update::update`] changes the [`model::Model`] and asks
 //! for [`message::Effect`]s; [`view::draw`] shows it. This file is the loop between them and the outside.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -20,6 +20,7 @@ use crate::track::Track;
 use advice::Advise;
 use config::Config;
 use consensus::{Poll, Polling};
+use files::{Desk, Task};
 use input::Normaliser;
 use journal::Journal;
 use message::{Effect, Message, Written};
@@ -37,6 +38,7 @@ pub mod advice;
 mod clipboard;
 pub mod config;
 pub mod consensus;
+pub mod files;
 mod find;
 mod fuzzy;
 mod hit;
@@ -139,15 +141,11 @@ pub fn run(opening: Opening, look: Look, config: Config, journal: Option<PathBuf
     let mut model = opening.model(look);
     model.keys = config.keys;
     (model.mouse, model.review.auto_advance) = (config.screen.mouse, config.screen.auto_advance);
-    let (sender, messages) = unbounded();
-    let (worker, advisor) = (office::judge(sender.clone()), advice::advise(sender.clone()));
-    let poller = consensus::poll(sender.clone());
     let signals = signals::listen()?;
-    let journal = Journal::start(journal, &mut model, sender.clone());
-    let mut outside = Outside { worker, advisor, advising: false, poller, sender, journal };
+    let mut outside = Outside::new(journal, &mut model);
     let mut screen = Screen::take(model.mouse)?;
     let pace = Pace::new(&config.screen);
-    let left = work(&mut model, &mut outside, &mut screen, pace, &messages, &signals);
+    let left = work(&mut model, &mut outside, &mut screen, pace, &signals);
     let left = match left {
         Err(e) if signals::is_gone(&e) => Ok(Left::Signalled(HANG_UP)),
         other => other,
@@ -177,11 +175,12 @@ fn work(
     outside: &mut Outside,
     screen: &mut Screen,
     mut pace: Pace,
-    messages: &Receiver<Message>,
     signals: &Receiver<Signalled>,
 ) -> Result<Left> {
     model.size = screen.size()?;
-    let first = vec![Effect::Analyse(model.shown)];
+    let mut first = vec![Effect::Analyse(model.shown)];
+    let path = model.file.clone().or_else(|| model.track.source.path().map(Path::to_path_buf));
+    first.extend(path.map(|path| Effect::Files(Task::Remember(path))));
     outside.carry_out(model, screen, first)?;
     let events = listen_for_events();
     let mut normaliser = Normaliser::default();
@@ -194,7 +193,7 @@ fn work(
                 // The terminal is gone: so is the reason to go on.
                 Err(_) => return Ok(Left::Signalled(HANG_UP)),
             },
-            recv(messages) -> message => inbox.extend(message),
+            recv(outside.messages) -> message => inbox.extend(message),
             recv(signals) -> signal => if let Ok(signal) = signal {
                 match signal {
                     Signalled::End(signal) => return Ok(Left::Signalled(signal)),
@@ -213,20 +212,28 @@ fn work(
         }
         // A burst of keys is drawn once.
         events.try_iter().for_each(|event| take_event(event, &mut normaliser, &mut inbox));
-        inbox.extend(messages.try_iter());
+        inbox.extend(outside.messages.try_iter());
         // Advice that no panel shows changes nothing on the screen: nothing goes over the wire.
         let unseen = |m: &Message| matches!(m, Message::Advised { .. } | Message::NoAdvice);
         let panel = layout::arrange(model).is_some_and(|areas| areas.parameters.is_some());
         let still = !panel && !inbox.is_empty() && inbox.iter().all(unseen);
+        let mut anew = false;
         for message in inbox {
-            if outside.take(model, screen, message)? == Next::Leave {
-                return Ok(Left::Quit);
+            // What the workbench before had asked for is of no use to the one that has taken its place.
+            let of_user = matches!(message, Message::Key(_) | Message::Paste(_) | Message::Resize(..));
+            if anew && !of_user {
+                continue;
+            }
+            match outside.take(model, screen, message)? {
+                Next::Leave => return Ok(Left::Quit),
+                Next::Anew => anew = true,
+                Next::Stay => {}
             }
         }
         // What is there within a frame's time is drawn with it: one frame goes over the wire, not three.
         let deadline = Instant::now() + FRAME;
         while (model.awaited.is_some() || outside.advising)
-            && let Ok(message) = messages.recv_deadline(deadline)
+            && let Ok(message) = outside.messages.recv_deadline(deadline)
         {
             if outside.take(model, screen, message)? == Next::Leave {
                 return Ok(Left::Quit);
@@ -267,6 +274,8 @@ fn listen_for_events() -> Receiver<Event> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Next {
     Stay,
+    /// Another record has taken the place of the one before.
+    Anew,
     Leave,
 }
 
@@ -278,16 +287,39 @@ struct Outside {
     advising: bool,
     poller: Worker<Poll>,
     sender: Sender<Message>,
+    messages: Receiver<Message>,
     journal: Journal,
+    /// The folder of journals.
+    folder: Option<PathBuf>,
+    desk: Desk,
 }
 
 impl Outside {
+    /// Workers and a journal for the model, which offers what earlier workbenches left.
+    fn new(folder: Option<PathBuf>, model: &mut Model) -> Self {
+        let (sender, messages) = unbounded();
+        let (worker, advisor) = (office::judge(sender.clone()), advice::advise(sender.clone()));
+        let journal = Journal::start(folder.clone(), model, sender.clone());
+        let poller = consensus::poll(sender.clone());
+        let desk = Desk::new(sender.clone(), folder.as_deref());
+        Self { worker, advisor, advising: false, poller, sender, messages, journal, folder, desk }
+    }
+
+    /// The same for a model that has taken the place of another, whose work is saved or not wanted.
+    fn begin_anew(&mut self, model: &mut Model) {
+        self.journal.end(true);
+        *self = Self::new(self.folder.take(), model);
+        if model.unsaved() {
+            self.journal.saved(model);
+        }
+    }
+
     /// Has the model take a message in, and does what follows.
     fn take(&mut self, model: &mut Model, screen: &mut Screen, message: Message) -> Result<Next> {
         if matches!(message, Message::Stepped { .. } | Message::Advised { .. } | Message::NoAdvice) {
             self.advising = false;
         }
-        let saved = matches!(message, Message::Written { what: Written::Session { .. }, result: Ok(_), .. });
+        let saved = matches!(&message, Message::Written { what, path, result: Ok(_) } if what.session(path).is_some());
         let effects = update::update(model, message);
         self.journal.note(model);
         if saved {
@@ -297,6 +329,7 @@ impl Outside {
     }
 
     fn carry_out(&mut self, model: &mut Model, screen: &mut Screen, effects: Vec<Effect>) -> Result<Next> {
+        let mut next = Next::Stay;
         for effect in effects {
             match effect {
                 Effect::Analyse(plan) => {
@@ -326,9 +359,16 @@ impl Outside {
                     let what = Written::Session { revision: model.revision, then_quit };
                     self.write(model, Errand { what, path, overwrite });
                 }
-                Effect::Export { path, overwrite } => {
-                    self.write(model, Errand { what: Written::Cleaned, path, overwrite });
+                Effect::Export { outputs, overwrite } => {
+                    let path = outputs.first().map(|o| o.path.clone()).unwrap_or_default();
+                    let what = Written::Exported { outputs, revision: model.revision };
+                    self.write(model, Errand { what, path, overwrite });
                 }
+                Effect::Files(Task::Begin) => {
+                    self.begin_anew(model);
+                    next = Next::Anew;
+                }
+                Effect::Files(task) => self.desk.begin(model, task),
                 Effect::Offered { path, fate } => self.journal.settle(model, &path, fate),
                 Effect::Copy(text) => screen.copy(&text)?,
                 Effect::Mouse(on) => screen.mouse(on)?,
@@ -337,7 +377,7 @@ impl Outside {
                 Effect::Quit => return Ok(Next::Leave),
             }
         }
-        Ok(Next::Stay)
+        Ok(next)
     }
 
     fn write(&self, model: &Model, errand: Errand) {

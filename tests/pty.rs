@@ -5,6 +5,8 @@
 
 #[path = "pty/command_line.rs"]
 mod command_line;
+#[path = "pty/files.rs"]
+mod files;
 #[path = "pty/journal.rs"]
 mod journal;
 #[path = "pty/mouse.rs"]
@@ -139,10 +141,14 @@ fn nothing_is_overwritten_without_being_told_to() {
     std::fs::write(folder.path("there.toml"), "kept").unwrap();
     terminal.keys(":w there.toml\r");
     terminal.wait_for("there.toml is there already");
+    terminal.keys("\x1b");
+    terminal.wait_until("no question", |screen| !screen.contents().contains("is there already"));
     terminal.keys(":export demo.csv\r");
     terminal.wait_for("demo.csv: this is the input");
     assert_eq!(folder.text("there.toml"), "kept");
-    terminal.keys(":w! there.toml\r");
+    terminal.keys(":w there.toml\r");
+    terminal.wait_for("overwrite it");
+    terminal.keys("o");
     terminal.wait_for("saved there.toml");
     assert!(folder.text("there.toml").starts_with("format = 1\n"));
 }

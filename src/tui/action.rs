@@ -18,6 +18,8 @@ pub enum Action {
     Redo,
     Save,
     Export,
+    Open,
+    SaveAs,
     Quit,
     Interrupt,
     Redraw,

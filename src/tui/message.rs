@@ -1,11 +1,12 @@
 //! What can happen to the workbench, and what it asks the outside for.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use ratatui::crossterm::event::{KeyEvent, MouseEvent};
 
 use super::advice::{Advice, Steps};
 use super::consensus::Consensus;
+use super::files::{News, Task};
 use crate::error::{Error, Result};
 use crate::plot::Drawn;
 
@@ -70,12 +71,14 @@ pub enum Message {
         /// A few words for the user, or what went wrong.
         result: Result<String>,
     },
+    /// Something about files that was asked for.
+    Files(News),
     /// The journal can no longer be written.
     Unjournalled(Error),
 }
 
 /// What was written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Written {
     /// The session, when the document was at this revision.
     Session {
@@ -84,8 +87,92 @@ pub enum Written {
         /// Quit when it has worked.
         then_quit: bool,
     },
-    /// The cleaned file.
+    /// Outputs of the result, all together.
+    Exported {
+        /// What they are.
+        outputs: Vec<Output>,
+        /// The revision of the document.
+        revision: u64,
+    },
+}
+
+impl Written {
+    /// Where the session was written, if it was.
+    #[must_use]
+    pub fn session<'a>(&'a self, path: &'a Path) -> Option<&'a Path> {
+        match self {
+            Self::Session { .. } => Some(path),
+            Self::Exported { outputs, .. } => {
+                outputs.iter().find(|o| o.kind == OutputKind::Session).map(|o| o.path.as_path())
+            }
+        }
+    }
+
+    /// The revision of the document that was written.
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        match self {
+            Self::Session { revision, .. } | Self::Exported { revision, .. } => *revision,
+        }
+    }
+}
+
+/// A file to write.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Output {
+    /// What it holds.
+    pub kind: OutputKind,
+    /// Where it goes.
+    pub path: PathBuf,
+}
+
+/// What an output holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OutputKind {
+    /// The input with repaired and removed cells.
     Cleaned,
+    /// Every flag with its evidence.
+    Flags,
+    /// A row for every sample.
+    Diagnostics,
+    /// The report.
+    Report,
+    /// The session.
+    Session,
+}
+
+impl OutputKind {
+    /// All of them, in the order of the dialog.
+    pub const ALL: [Self; 5] = [Self::Cleaned, Self::Flags, Self::Diagnostics, Self::Report, Self::Session];
+
+    /// Its name, what a file of it is called after the name of the record, and what it is in a line.
+    fn row(self) -> (&'static str, &'static str, &'static str) {
+        match self {
+            Self::Cleaned => ("cleaned", ".clean.csv", "the record again; only repaired and removed cells differ"),
+            Self::Flags => ("flags", ".flags.csv", "a row for every flag and decision, with its evidence"),
+            Self::Diagnostics => ("diagnostics", ".diagnostics.csv", "a row for every sample"),
+            Self::Report => ("report", ".html", "a page with pictures, settings and flags (.md: Markdown)"),
+            Self::Session => ("session", ".wild.toml", "what gives this result again: settings and decisions"),
+        }
+    }
+
+    /// Its name in the dialog.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.row().0
+    }
+
+    /// What a file of it is called after the name of the record.
+    #[must_use]
+    pub fn ending(self) -> &'static str {
+        self.row().1
+    }
+
+    /// What it is, in a line.
+    #[must_use]
+    pub fn help(self) -> &'static str {
+        self.row().2
+    }
 }
 
 /// What becomes of a journal that was offered.
@@ -125,13 +212,15 @@ pub enum Effect {
         /// Quit when it has worked.
         then_quit: bool,
     },
-    /// Write the cleaned file.
+    /// Write outputs of the result: all of them, or none.
     Export {
-        /// Where.
-        path: PathBuf,
-        /// Whether it may take the place of a file that is there.
+        /// What, and where.
+        outputs: Vec<Output>,
+        /// Whether they may take the place of files that are there.
         overwrite: bool,
     },
+    /// Something about files.
+    Files(Task),
     /// Do what was decided with a journal that was offered.
     Offered {
         /// The journal.

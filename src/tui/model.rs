@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::action::Panel;
 use super::advice::{Advice, Steps};
 use super::consensus::Polling;
+use super::files::Request;
 use super::keys::Keys;
 use super::plot::{Axis, Glyphs, View};
 use super::theme::Theme;
@@ -18,11 +19,13 @@ use crate::session::{Edit, Plan, Session};
 use crate::track::{Channel, Series, Track};
 
 mod channel;
+mod dialog;
 mod lower;
 mod overlay;
 mod review;
 
 pub use channel::{ChannelState, Pinned, YMode};
+pub use dialog::{Browser, Dialog, ExportForm, ExportRow, LoaderForm, Over, Waiting};
 pub use lower::{Lower, LowerKind, Second};
 pub use overlay::{Overlay, Picker, PickerKind, Prompt, PromptKind};
 pub use review::{Group, Reviewing, Sort, Unit};
@@ -86,6 +89,10 @@ pub struct Model {
     pub by_number: bool,
     /// Whether the next quit is meant.
     pub interrupted: bool,
+    /// By which the answer to the latest request to open something is known.
+    pub ticket: u64,
+    /// What is opened as soon as the session has been saved.
+    pub then_open: Option<Request>,
     /// Edits of the document that the journal does not have yet, as [`Edit::touched`] says.
     pub unjournalled: Vec<Vec<(usize, Vec<u32>)>>,
 }
@@ -157,8 +164,21 @@ impl Model {
             polling: None,
             by_number: false,
             interrupted: false,
+            ticket: 0,
+            then_open: None,
             unjournalled: Vec::new(),
         }
+    }
+
+    /// Takes over from the workbench before what belongs to the screen and the user, not to the record.
+    pub fn keep_screen_of(&mut self, old: Self) {
+        self.size = old.size;
+        self.focus = old.focus;
+        self.maximised = old.maximised;
+        self.ticket = old.ticket;
+        (self.keys, self.mouse, self.lines) = (old.keys, old.mouse, old.lines);
+        self.lower = old.lower;
+        self.review.keep_habits_of(old.review);
     }
 
     /// The channel on the screen.

@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use crossbeam_channel::Sender;
 
-use super::message::{Message, Written};
+use super::message::{Message, Output, OutputKind, Written};
 use super::model::Model;
 use crate::error::{Error, Result};
 use crate::job::Worker;
 use crate::plot::Drawn;
+use crate::report;
 use crate::review::Decisions;
 use crate::session::{Analysed, Detection, Session, Setup, detect, detect_together, document, settle, write_cleaned};
 use crate::stop::Stop;
@@ -115,18 +116,18 @@ pub fn judge(results: Sender<Message>) -> Worker<Judge> {
 pub struct Errand {
     /// What, and when.
     pub what: Written,
-    /// Where.
+    /// Where; of several files, the first.
     pub path: PathBuf,
-    /// Whether it may take the place of a file that is there.
+    /// Whether they may take the place of files that are there.
     pub overwrite: bool,
 }
 
-/// Writes a file on a thread of its own and sends how it went.
+/// Writes files on a thread of its own and sends how it went.
 pub fn write(track: Arc<Track>, session: Session, errand: Errand, results: Sender<Message>) {
     std::thread::spawn(move || {
-        let result = match errand.what {
+        let result = match &errand.what {
             Written::Session { .. } => save(&track, session, &errand),
-            Written::Cleaned => export(&track, &session, &errand),
+            Written::Exported { outputs, .. } => export(&track, &session, outputs, errand.overwrite),
         };
         let _ = results.send(Message::Written { what: errand.what, path: errand.path, result });
     });
@@ -135,26 +136,56 @@ pub fn write(track: Arc<Track>, session: Session, errand: Errand, results: Sende
 fn save(track: &Track, mut session: Session, errand: &Errand) -> Result<String> {
     let analysed = Analysed::of(&session, track, &Stop::never())?;
     let text = document(&mut session, track, &analysed, &errand.path)?;
-    put(track, errand, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", &errand.path)))?;
+    let mut files = outputs_of(track, errand.overwrite);
+    files.stage(&errand.path, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", &errand.path)))?;
+    files.commit()?;
     let channels = session.plans.iter().map(|p| p.channel.as_str()).collect::<Vec<_>>().join(", ");
     let decisions: usize = session.plans.iter().map(|p| p.decisions.len()).sum();
     let path = errand.path.display();
     Ok(format!("saved {path}: {channels}; {} flagged, {decisions} decisions", analysed.flagged()))
 }
 
-fn export(track: &Track, session: &Session, errand: &Errand) -> Result<String> {
+/// Writes outputs of a result, all of them or none; gives a few words for the user.
+///
+/// # Errors
+/// What the outputs give; nothing has been written then.
+pub fn export(track: &Track, session: &Session, outputs: &[Output], overwrite: bool) -> Result<String> {
     let analysed = Analysed::of(session, track, &Stop::never())?;
     let changes = analysed.changes(track);
-    put(track, errand, |w| write_cleaned(track, &changes, w).map(|_| ()))?;
-    let path = errand.path.display();
-    let cells = changes.cells.len();
-    let rows = if changes.rows.is_empty() { String::new() } else { format!(", {} rows added", changes.rows.len()) };
-    Ok(format!("wrote {path}: {cells} cell{} changed{rows}", if cells == 1 { "" } else { "s" }))
+    let mut files = outputs_of(track, overwrite);
+    for Output { kind, path } in outputs {
+        match kind {
+            OutputKind::Cleaned => files.stage(path, |w| write_cleaned(track, &changes, w).map(|_| ())),
+            OutputKind::Flags => files.stage(path, |w| report::flags(track, session, &analysed, w)),
+            OutputKind::Diagnostics => files.stage(path, |w| report::diagnostics(track, session, &analysed, w)),
+            OutputKind::Report => files.stage(path, |w| report::report(track, session, &analysed, path, w)),
+            OutputKind::Session => {
+                let text = document(&mut session.clone(), track, &analysed, path)?;
+                files.stage(path, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", path)))
+            }
+        }?;
+    }
+    files.commit()?;
+    Ok(match outputs {
+        [Output { kind: OutputKind::Cleaned, path }] => {
+            let n = changes.cells.len();
+            let s = if n == 1 { "" } else { "s" };
+            let rows =
+                if changes.rows.is_empty() { String::new() } else { format!(", {} rows added", changes.rows.len()) };
+            format!("wrote {}: {n} cell{s} changed{rows}", path.display())
+        }
+        [only] => format!("wrote {}: {}", only.path.display(), only.kind.name()),
+        several => {
+            let names: Vec<String> = several.iter().map(|o| o.path.display().to_string()).collect();
+            format!("wrote {} files: {}", names.len(), names.join(", "))
+        }
+    })
 }
 
-fn put(track: &Track, errand: &Errand, fill: impl FnOnce(&mut dyn std::io::Write) -> Result<()>) -> Result<()> {
+fn outputs_of(track: &Track, overwrite: bool) -> Outputs {
     let inputs: Vec<&Path> = track.source.path().into_iter().collect();
-    let mut files = Outputs::new(errand.overwrite, &inputs);
-    files.stage(&errand.path, fill)?;
-    files.commit()
+    Outputs::new(overwrite, &inputs)
 }
+
+#[cfg(test)]
+mod tests;

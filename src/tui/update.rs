@@ -3,7 +3,7 @@
 
 use super::action::{Action, Panel};
 use super::keys::Meaning;
-use super::message::{Effect, Message, Written};
+use super::message::{Effect, Message};
 use super::model::{Knob, Model, Overlay, Picker, PickerKind, Prompt, PromptKind, Tone};
 use crate::error::Error;
 
@@ -14,6 +14,7 @@ mod compare;
 mod consensus;
 pub(super) mod decide;
 pub(super) mod describe;
+mod dialog;
 mod files;
 mod history;
 mod journal;
@@ -30,7 +31,8 @@ mod review;
 mod tune;
 
 pub use command::{COMMANDS, Command};
-pub use files::{default_export, default_session};
+pub use dialog::{FIELDS, Field};
+pub use files::default_session;
 use history::{commit, set_up};
 pub use jump::FORMS;
 pub use overlay::{Entry, narrowed};
@@ -87,7 +89,8 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
             consensus::polled(model, generation, plan, consensus);
             Vec::new()
         }
-        Message::Written { what, path, result } => files::written(model, what, &path, result),
+        Message::Written { what, path, result } => files::written(model, &what, &path, result),
+        Message::Files(news) => dialog::news(model, news),
         Message::Unjournalled(e) => {
             let text = e.to_string().replace("\n  ", "; ");
             model.say(Tone::Error, format!("the journal ends here, :w saves: {text}"));
@@ -135,7 +138,12 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Undo => history::undo(model),
         Action::Redo => history::redo(model),
         Action::Save => files::save(model, None, false, false),
-        Action::Export => files::export(model, None, false),
+        Action::Export => dialog::export_dialog(model),
+        Action::Open => dialog::browse(model),
+        Action::SaveAs => {
+            let path = model.file.clone().unwrap_or_else(|| default_session(&model.track.source));
+            prompt(model, PromptKind::SaveAs, &path.to_string_lossy())
+        }
         Action::Quit => quit(model),
         Action::Interrupt => interrupt(model),
         Action::Redraw => vec![Effect::Redraw],
@@ -333,9 +341,4 @@ pub(super) fn list_of(knob: Knob) -> Option<PickerKind> {
         Knob::Repair(p) if p.key == crate::repair::METHOD.key => Some(PickerKind::Repair),
         Knob::Detection(_) | Knob::Repair(_) => None,
     }
-}
-
-/// The message for the footer when the session was saved, or not.
-pub(super) fn is_session(what: Written) -> bool {
-    matches!(what, Written::Session { .. })
 }

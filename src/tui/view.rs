@@ -13,6 +13,7 @@ use super::model::{Model, Overlay, Tone};
 
 mod card;
 mod compare;
+mod files;
 mod footer;
 mod help;
 mod journal;

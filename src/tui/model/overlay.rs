@@ -3,6 +3,7 @@
 use tui_input::Input;
 
 use super::super::journal::Found;
+use super::Dialog;
 
 /// What lies over the panels.
 #[derive(Debug, Default)]
@@ -18,6 +19,8 @@ pub enum Overlay {
     Prompt(Prompt),
     /// The command line that does the same without a screen, and what to know about it.
     CommandLine(String, &'static str),
+    /// A dialog about files.
+    Files(Box<Dialog>),
     /// Quit although something is not saved?
     ConfirmQuit,
     /// What was done, at the moment after so many edits.
@@ -82,6 +85,8 @@ pub enum PromptKind {
     Command,
     /// Where to jump.
     Jump,
+    /// Where the session is saved.
+    SaveAs,
     /// The value of the active knob.
     Value,
     /// A note on decisions.

@@ -48,6 +48,14 @@ pub struct Reviewing {
     pub left_at: Option<usize>,
 }
 
+impl Reviewing {
+    /// Takes over how its owner likes to work, but nothing that is about a record.
+    pub(super) fn keep_habits_of(&mut self, old: Self) {
+        let Self { sort, unit, auto_advance, .. } = old;
+        (self.sort, self.unit, self.auto_advance) = (sort, unit, auto_advance);
+    }
+}
+
 impl Default for Reviewing {
     fn default() -> Self {
         Self {

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::super::message::Effect;
+use super::super::message::{Effect, OutputKind};
 use super::super::model::{Model, Tone};
-use super::{Action, act, command_line, files, jump, pictures, review, show, tune};
+use super::files::default_report;
+use super::{Action, act, command_line, dialog, files, jump, pictures, review, show, tune};
 use crate::error::nearest;
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
@@ -37,9 +38,24 @@ pub static COMMANDS: &[Command] = &[
     command("wq|x", "[NAME]", "save the session and quit", |m, a| Ok(files::save(m, path(a), false, true))),
     command("q", "", "quit; asks when something is not saved", |m, _| Ok(act(m, Action::Quit))),
     command("q!", "", "quit and drop what is not saved", |_, _| Ok(vec![Effect::Quit])),
-    command("export", "[NAME]", "write the cleaned file", |m, a| Ok(files::export(m, path(a), false))),
-    command("export!", "[NAME]", "write the cleaned file over an existing one", |m, a| {
-        Ok(files::export(m, path(a), true))
+    command("saveas", "", "save the session under another name", |m, _| Ok(act(m, Action::SaveAs))),
+    command("open", "[PATH]", "open a record or a session; without a path, from a list", |m, a| {
+        Ok(match path(a) {
+            Some(path) => dialog::open(m, path),
+            None => act(m, Action::Open),
+        })
+    }),
+    command("loader", "", "correct how the record is loaded", |m, _| Ok(dialog::correct(m))),
+    command("export", "[NAME]", "write the cleaned file; without a name, choose what is written", |m, a| {
+        Ok(export(m, a, OutputKind::Cleaned, false))
+    }),
+    command("export!", "NAME", "write the cleaned file over an existing one", |m, a| {
+        Ok(export(m, a, OutputKind::Cleaned, true))
+    }),
+    command("report", "[NAME]", "write the report: .html or .md", |m, a| {
+        let name = default_report(&m.track.source);
+        let name = if a.is_empty() { name.to_string_lossy().into_owned() } else { a.to_owned() };
+        Ok(export(m, &name, OutputKind::Report, false))
     }),
     command("set", "KEY VALUE", "set a parameter of the method or of repair", set),
     command("method", "ID", "choose the method", |m, a| {
@@ -124,6 +140,13 @@ fn common(candidates: Vec<String>, start: &str) -> Option<String> {
     let mut fitting = candidates.into_iter().filter(|c| c.starts_with(start));
     let first = fitting.next()?;
     Some(fitting.fold(first, |a, b| a.chars().zip(b.chars()).take_while(|(x, y)| x == y).map(|(x, _)| x).collect()))
+}
+
+fn export(model: &mut Model, name: &str, kind: OutputKind, overwrite: bool) -> Vec<Effect> {
+    match path(name) {
+        Some(path) => dialog::export_one(model, kind, path, overwrite),
+        None => dialog::export_dialog(model),
+    }
 }
 
 fn path(text: &str) -> Option<PathBuf> {

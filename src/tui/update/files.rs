@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::super::message::{Effect, Written};
-use super::super::model::{Model, Tone};
+use super::super::files::Task;
+use super::super::message::{Effect, OutputKind, Written};
+use super::super::model::{Dialog, Model, Overlay, Tone};
 use super::super::plot::Flags;
-use super::{is_session, queue};
-use crate::error::Result;
+use super::{dialog, queue};
+use crate::error::{Error, Result};
 use crate::plot::Drawn;
 use crate::track::Source;
 
@@ -20,11 +21,17 @@ pub fn default_session(source: &Source) -> PathBuf {
 
 /// Where the cleaned file goes when nobody says where.
 #[must_use]
-pub fn default_export(source: &Source) -> PathBuf {
-    PathBuf::from(format!("{}.clean.csv", stem(source)))
+pub(super) fn default_export(source: &Source) -> PathBuf {
+    PathBuf::from(format!("{}{}", stem(source), OutputKind::Cleaned.ending()))
 }
 
-fn stem(source: &Source) -> String {
+/// Where the report goes when nobody says where.
+pub(super) fn default_report(source: &Source) -> PathBuf {
+    PathBuf::from(format!("{}{}", stem(source), OutputKind::Report.ending()))
+}
+
+/// The name of a record without folder and ending.
+pub(super) fn stem(source: &Source) -> String {
     let name = match source {
         Source::File(path) => path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
         Source::BuiltIn { name, .. } => name.rsplit(':').next().unwrap_or(name).to_owned(),
@@ -42,35 +49,56 @@ pub(super) fn save(model: &mut Model, path: Option<PathBuf>, force: bool, then_q
     vec![Effect::Save { path, overwrite, then_quit }]
 }
 
-pub(super) fn export(model: &mut Model, path: Option<PathBuf>, force: bool) -> Vec<Effect> {
-    let path = path.unwrap_or_else(|| default_export(&model.track.source));
-    model.say(Tone::Done, format!("writing {} …", path.display()));
-    vec![Effect::Export { path, overwrite: force }]
-}
-
-pub(super) fn written(model: &mut Model, what: Written, path: &Path, result: Result<String>) -> Vec<Effect> {
+pub(super) fn written(model: &mut Model, what: &Written, path: &Path, result: Result<String>) -> Vec<Effect> {
     match result {
         Ok(text) => {
             model.say(Tone::Done, text);
-            if let Written::Session { revision, then_quit } = what {
-                model.saved_revision = revision;
-                model.file = Some(path.to_path_buf());
-                if then_quit && !model.unsaved() {
-                    return vec![Effect::Quit];
-                }
+            // A dialog that asked for the files has done its work.
+            if matches!(&model.overlay, Overlay::Files(dialog) if matches!(**dialog, Dialog::Export(_))) {
+                model.overlay = Overlay::None;
             }
+            what.session(path).map(|path| saved(model, what, path)).unwrap_or_default()
+        }
+        Err(Error::Exists(there)) => {
+            model.toast = None;
+            dialog::ask_over(model, there, again(what, path));
+            Vec::new()
         }
         Err(e) => {
-            let way = if is_session(what) { ":w! NAME overwrites" } else { ":export! NAME overwrites" };
-            let text = match e {
-                crate::error::Error::Exists(path) => format!("{} is there already · {way}", path.display()),
-                other => other.to_string().replace("\n  ", "; "),
-            };
-            let failed = if is_session(what) { "not saved" } else { "not written" };
-            model.say(Tone::Error, format!("{failed}: {text}"));
+            model.then_open = None;
+            let failed = if matches!(what, Written::Session { .. }) { "not saved" } else { "not written" };
+            model.say(Tone::Error, format!("{failed}: {}", e.to_string().replace("\n  ", "; ")));
+            Vec::new()
         }
     }
-    Vec::new()
+}
+
+/// The session is in a file: what was waiting for that goes on.
+fn saved(model: &mut Model, what: &Written, path: &Path) -> Vec<Effect> {
+    model.saved_revision = what.revision();
+    model.file = Some(path.to_path_buf());
+    let remember = Effect::Files(Task::Remember(path.to_path_buf()));
+    if model.unsaved() {
+        return vec![remember];
+    }
+    if matches!(what, Written::Session { then_quit: true, .. }) {
+        return vec![remember, Effect::Quit];
+    }
+    let mut effects = vec![remember];
+    if let Some(request) = model.then_open.take() {
+        effects.extend(dialog::begin_opening(model, request));
+    }
+    effects
+}
+
+/// The same once more, over what is there.
+fn again(what: &Written, path: &Path) -> Effect {
+    match what {
+        Written::Session { then_quit, .. } => {
+            Effect::Save { path: path.to_path_buf(), overwrite: true, then_quit: *then_quit }
+        }
+        Written::Exported { outputs, .. } => Effect::Export { outputs: outputs.clone(), overwrite: true },
+    }
 }
 
 /// Takes a result in.

@@ -3,9 +3,10 @@
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::{Input, InputRequest};
 
+use super::super::files::Task;
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
-use super::{files, journal, jump, note, palette, pictures, recover, set_up, show, tune};
+use super::{dialog, files, journal, jump, note, palette, pictures, recover, set_up, show, tune};
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
 use crate::track::printable;
@@ -87,6 +88,7 @@ pub fn narrowed(model: &Model, picker: &Picker) -> Vec<Entry> {
 pub(super) fn key(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
     let overlay = match std::mem::take(&mut model.overlay) {
         Overlay::Recover(found) => return recover::key(model, found, key),
+        Overlay::Files(files) => return dialog::key(model, *files, key),
         other => other,
     };
     let gone = key.code == KeyCode::Esc || (key.code == KeyCode::Char('c') && control(key));
@@ -94,7 +96,7 @@ pub(super) fn key(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
         return Vec::new();
     }
     match overlay {
-        Overlay::None | Overlay::Recover(_) => Vec::new(),
+        Overlay::None | Overlay::Recover(_) | Overlay::Files(_) => Vec::new(),
         Overlay::Help(filter, from) => {
             model.overlay = help(filter, from, key);
             Vec::new()
@@ -114,6 +116,10 @@ pub(super) fn paste(model: &mut Model, text: &str) -> Vec<Effect> {
         Overlay::Prompt(prompt) => &mut prompt.input,
         Overlay::Picker(picker) => &mut picker.filter,
         Overlay::Help(filter, _) => filter,
+        Overlay::Files(files) => {
+            dialog::paste(files, text);
+            return Vec::new();
+        }
         Overlay::None | Overlay::ConfirmQuit | Overlay::Recover(_) | Overlay::Journal(_) | Overlay::CommandLine(..) => {
             return Vec::new();
         }
@@ -224,6 +230,11 @@ fn type_in(model: &mut Model, mut prompt: Prompt, key: KeyEvent) -> Vec<Effect> 
         (KeyCode::Up, _) if command => palette::walk(model, &mut prompt, false),
         (KeyCode::Char('n'), true) if command => palette::recall(model, &mut prompt, true),
         (KeyCode::Char('p'), true) if command => palette::recall(model, &mut prompt, false),
+        (KeyCode::Tab, _) if prompt.kind == PromptKind::SaveAs => {
+            let typed = prompt.input.value().to_owned();
+            model.overlay = Overlay::Prompt(prompt);
+            return vec![Effect::Files(Task::Complete(typed))];
+        }
         (KeyCode::Tab, _) if prompt.kind == PromptKind::Note => {
             prompt.input = note::completed(prompt.input.value()).into();
         }
@@ -246,6 +257,8 @@ fn entered(model: &mut Model, prompt: &mut Prompt) -> Result<Option<Vec<Effect>>
     match prompt.kind {
         PromptKind::Command => palette::enter(model, prompt),
         PromptKind::Jump => jump::jump(model, &text).map(|()| Some(Vec::new())),
+        PromptKind::SaveAs if text.trim().is_empty() => Err("a name is wanted".into()),
+        PromptKind::SaveAs => Ok(Some(files::save(model, Some(text.trim().into()), false, false))),
         PromptKind::Value => tune::set_value(model, &text).map(Some),
         PromptKind::Note => Ok(Some(note::set(model, &text))),
     }
@@ -263,7 +276,7 @@ fn confirm(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
 }
 
 /// The editing keys of a line, as shells have them.
-fn edit(input: &mut Input, key: KeyEvent) {
+pub(super) fn edit(input: &mut Input, key: KeyEvent) {
     let request = match (key.code, control(key)) {
         (KeyCode::Char('a'), true) | (KeyCode::Home, _) => InputRequest::GoToStart,
         (KeyCode::Char('e'), true) | (KeyCode::End, _) => InputRequest::GoToEnd,

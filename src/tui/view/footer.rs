@@ -7,7 +7,7 @@ use ratatui::widgets::Widget;
 
 use super::super::action::Action;
 use super::super::keys::{Bound, Context, shown};
-use super::super::model::{Model, Overlay, Prompt, PromptKind};
+use super::super::model::{Dialog, ExportForm, LoaderForm, Model, Overlay, Prompt, PromptKind};
 use super::clear;
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
@@ -116,13 +116,47 @@ fn overlay_items(overlay: &Overlay) -> Option<Vec<(String, &'static str)>> {
         Overlay::Prompt(Prompt { kind: PromptKind::Command, .. }) => {
             &[("Enter", "do it"), ("↑↓", "choose"), ("Tab", "complete"), ("Esc", "leave it")]
         }
+        Overlay::Prompt(Prompt { kind: PromptKind::SaveAs, .. }) => {
+            &[("Enter", "save"), ("Tab", "complete"), ("Esc", "leave it")]
+        }
         Overlay::Prompt(_) => &[("Enter", "do it"), ("Esc", "leave it")],
         Overlay::CommandLine(..) => &[("any key", "goes back")],
         Overlay::Recover(found) if found.first().is_some_and(|f| f.missing.is_some()) => {
             &[("d", "drop it"), ("Esc", "decide later")]
         }
         Overlay::Recover(_) => &[("r", "take it back in"), ("d", "drop it"), ("Esc", "decide later")],
+        Overlay::Files(dialog) => of_dialog(dialog),
         Overlay::ConfirmQuit => &[("w", "save and quit"), ("d", "drop and quit"), ("Esc", "stay")],
     };
     Some(items.iter().map(|(k, w)| ((*k).to_owned(), *w)).collect())
+}
+
+fn of_dialog(dialog: &Dialog) -> &'static [(&'static str, &'static str)] {
+    match dialog {
+        Dialog::Browser(_) => &[
+            ("Enter", "open"),
+            ("type", "to filter"),
+            ("↑↓", "choose"),
+            ("Backspace", "parent"),
+            ("Tab", "how to load"),
+            ("Esc", "leave"),
+        ],
+        Dialog::Loader(LoaderForm { typing: Some(_), .. }) | Dialog::Export(ExportForm { typing: Some(_), .. }) => {
+            &[("Enter", "take it"), ("Esc", "leave it")]
+        }
+        Dialog::Loader(_) => &[
+            ("Enter", "load so"),
+            ("↑↓", "choose"),
+            ("←→", "change"),
+            ("e", "type"),
+            ("Backspace", "recognise"),
+            ("Esc", "leave"),
+        ],
+        Dialog::Export(_) => {
+            &[("Enter", "write"), ("↑↓", "choose"), ("Space", "on or off"), ("e", "edit the name"), ("Esc", "leave")]
+        }
+        Dialog::Waiting(_) => &[("Esc", "leave it")],
+        Dialog::Unsaved(_) => &[("w", "save, then open"), ("d", "drop, then open"), ("Esc", "stay")],
+        Dialog::Over(_) => &[("o", "overwrite"), ("Esc", "leave it")],
+    }
 }

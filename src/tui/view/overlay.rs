@@ -19,6 +19,7 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         Overlay::Help(filter, from) => super::help::draw(model, filter, *from, area, buffer),
         Overlay::Picker(picker) => list(model, picker, area, buffer),
         Overlay::Prompt(prompt) => line(model, prompt, area, buffer),
+        Overlay::Files(dialog) => super::files::draw(model, dialog, area, buffer),
         Overlay::ConfirmQuit => confirm(model, area, buffer),
         Overlay::Journal(at) => super::journal::draw(model, *at, area, buffer),
         Overlay::CommandLine(line, about) => command_line(model, line, about, area, buffer),
@@ -134,6 +135,7 @@ fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
     let before = match prompt.kind {
         PromptKind::Command => ":".to_owned(),
         PromptKind::Jump => "/".to_owned(),
+        PromptKind::SaveAs => "save as: ".to_owned(),
         PromptKind::Value => {
             let knob = model.knob();
             format!("{} (now {}): ", knob.name(), value_text(&model.plan().setup, knob))

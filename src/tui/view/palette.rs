@@ -18,7 +18,7 @@ pub(super) fn draw(model: &Model, prompt: &Prompt, bottom: u16, area: Rect, buff
     let rows = match prompt.kind {
         PromptKind::Command => commands(model, prompt),
         PromptKind::Jump => FORMS.iter().map(|(form, help)| Row::of(form, "", help)).collect(),
-        PromptKind::Value | PromptKind::Note => return,
+        PromptKind::Value | PromptKind::SaveAs | PromptKind::Note => return,
     };
     // A heading, and the panels above keep some rows.
     let room = bottom.saturating_sub(area.y).saturating_sub(4).min(MOST);

@@ -1,0 +1,165 @@
+//! Files beside the screen: folders are listed, files looked into, records loaded and outputs written on threads, and
+//! what comes of it is sent as messages.
+
+use std::path::{Path, PathBuf};
+
+use crossbeam_channel::Sender;
+
+use super::Look;
+use super::message::Message;
+use super::model::Model;
+use crate::error::Result;
+use crate::job::Worker;
+use crate::stop::Stop;
+use crate::track::{LoadOptions, Source};
+
+mod complete;
+mod listing;
+mod look;
+mod open;
+mod recent;
+
+pub use listing::{FileEntry, FileKind, Listing};
+pub use look::{Glance, Seen};
+
+/// A record or a session to open.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Request {
+    /// Where it is; a session file opens the record that it names.
+    pub source: Source,
+    /// How a record is loaded.
+    pub options: LoadOptions,
+    /// True when the record that is open is loaded anew: setup and decisions stay where they still fit.
+    pub again: bool,
+}
+
+impl Request {
+    /// For a file, with everything recognised.
+    #[must_use]
+    pub fn file(path: PathBuf) -> Self {
+        Self { source: Source::File(path), options: LoadOptions::default(), again: false }
+    }
+}
+
+/// Work with files that is asked for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Task {
+    /// List a folder; of a file, say that it is one.
+    List(PathBuf),
+    /// Look into a file.
+    Look(Glance),
+    /// Open a record or a session.
+    Open {
+        /// By which the answer is known.
+        ticket: u64,
+        /// What.
+        request: Request,
+    },
+    /// The new model is in place: workers and journal begin anew.
+    Begin,
+    /// Say which of these are there.
+    Check(Vec<PathBuf>),
+    /// Complete a path as far as it is clear.
+    Complete(String),
+    /// Put a file at the top of the recent ones.
+    Remember(PathBuf),
+}
+
+/// What came of it.
+#[derive(Debug)]
+pub enum News {
+    /// A folder was listed.
+    Listed(Result<Listing>),
+    /// A file was looked into.
+    Seen {
+        /// What was asked for.
+        glance: Glance,
+        /// What was seen.
+        result: Result<Seen>,
+    },
+    /// A record is loaded, with all that the screen needs of it.
+    Opened {
+        /// By which the answer is known.
+        ticket: u64,
+        /// The workbench on it.
+        result: Result<Box<Model>>,
+    },
+    /// Which files are there.
+    Checked(Vec<(PathBuf, bool)>),
+    /// A path was completed.
+    Completed {
+        /// What had been typed.
+        typed: String,
+        /// What it became; the same when it is not clear how it goes on.
+        completed: String,
+    },
+}
+
+/// Sessions are told from records by their name.
+#[must_use]
+pub fn is_session(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
+}
+
+/// What does the work.
+pub(super) struct Desk {
+    looker: Worker<Glance>,
+    results: Sender<Message>,
+    /// The list of recent files; none where no journal is kept either.
+    recent: Option<PathBuf>,
+}
+
+impl Desk {
+    /// A desk that sends to `results`; `journal` is the folder of journals, beside which the recent files are kept.
+    pub(super) fn new(results: Sender<Message>, journal: Option<&Path>) -> Self {
+        let sender = results.clone();
+        let looker = Worker::new(move |_, glance: Glance, stop: &Stop| {
+            let result = glance.look(stop);
+            // Nobody listens any more when the program is about to end.
+            let _ = sender.send(Message::Files(News::Seen { glance, result }));
+        });
+        let recent = journal.and_then(Path::parent).map(|state| state.join("recent"));
+        Self { looker, results, recent }
+    }
+
+    /// Begins a task; what comes of it is sent.
+    pub(super) fn begin(&self, model: &Model, task: Task) {
+        let recent = self.recent.clone();
+        match task {
+            Task::List(path) => self.answer(move || Some(News::Listed(listing::list(&path, recent.as_deref())))),
+            Task::Look(glance) => {
+                self.looker.submit(glance);
+            }
+            Task::Open { ticket, request } => {
+                let keep = request.again.then(|| open::Keep::of(model));
+                let look = Look { theme: model.theme, glyphs: model.glyphs };
+                self.answer(move || {
+                    Some(News::Opened { ticket, result: open::open(request, keep, look).map(Box::new) })
+                });
+            }
+            Task::Check(paths) => self.answer(move || {
+                Some(News::Checked(paths.into_iter().map(|p| (p.clone(), p.symlink_metadata().is_ok())).collect()))
+            }),
+            Task::Complete(typed) => self.answer(move || {
+                let completed = complete::path(&typed);
+                Some(News::Completed { typed, completed })
+            }),
+            Task::Remember(path) => self.answer(move || {
+                // A list that cannot be written is only shorter next time.
+                let _ = recent::remember(recent.as_deref()?, &path);
+                None
+            }),
+            // The loop does it, which owns workers and journal.
+            Task::Begin => {}
+        }
+    }
+
+    fn answer(&self, work: impl FnOnce() -> Option<News> + Send + 'static) {
+        let results = self.results.clone();
+        std::thread::spawn(move || {
+            if let Some(news) = work() {
+                let _ = results.send(Message::Files(news));
+            }
+        });
+    }
+}

@@ -1,0 +1,170 @@
+//! What can be told the loader: one row for each option.
+
+use crate::track::{Delimiter, LoadOptions};
+
+/// A field of the dialog.
+#[derive(Debug)]
+pub struct Field {
+    /// Its name.
+    pub name: &'static str,
+    /// What it says, in a few words.
+    pub help: &'static str,
+    /// What is told, as text; none when it is recognised.
+    pub text: fn(&LoadOptions) -> Option<String>,
+    /// The next of its values (1), or the one before (-1); the columns of the record are known.
+    pub(super) step: fn(&mut LoadOptions, &[String], isize),
+    /// Back to what is recognised.
+    pub(super) clear: fn(&mut LoadOptions),
+    /// Takes what was typed, where that makes sense.
+    pub(super) take: Option<fn(&mut LoadOptions, &str)>,
+}
+
+impl Field {
+    /// True when its value can be typed.
+    #[must_use]
+    pub fn is_typed(&self) -> bool {
+        self.take.is_some()
+    }
+}
+
+/// Every field, in the order of the dialog.
+pub static FIELDS: &[Field] = &[
+    Field {
+        name: "time column",
+        help: "a column, or the sample number",
+        text: |o| o.time.clone().map(|t| if t == "sample" { "the sample number".into() } else { t }),
+        step: |o, columns, by| o.time = next(&named(columns, Some("sample")), o.time.clone(), by),
+        clear: |o| o.time = None,
+        take: Some(|o, text| o.time = told(text)),
+    },
+    Field {
+        name: "channels",
+        help: "columns of numbers, commas between them",
+        text: |o| (!o.channels.is_empty()).then(|| o.channels.join(", ")),
+        step: |o, columns, by| {
+            let now = o.channels.first().cloned();
+            o.channels = next(&named(columns, None), now, by).into_iter().collect();
+        },
+        clear: |o| o.channels.clear(),
+        take: Some(|o, text| o.channels = list(text)),
+    },
+    Field {
+        name: "truth column",
+        help: "1 where a sample is really wild",
+        text: |o| o.truth.clone(),
+        step: |o, columns, by| o.truth = next(&named(columns, None), o.truth.clone(), by),
+        clear: |o| o.truth = None,
+        take: Some(|o, text| o.truth = told(text)),
+    },
+    Field {
+        name: "missing markers",
+        help: "texts for \"no value\", besides empty, NaN, NA, null and -",
+        text: |o| (!o.missing.is_empty()).then(|| o.missing.join(", ")),
+        step: |_, _, _| {},
+        clear: |o| o.missing.clear(),
+        take: Some(|o, text| o.missing = list(text)),
+    },
+    Field {
+        name: "delimiter",
+        help: "what stands between two cells",
+        text: |o| o.delimiter.map(|d| DELIMITERS.iter().find(|x| x.0 == d).map_or("another", |x| x.1).to_owned()),
+        step: |o, _, by| o.delimiter = next(&DELIMITERS.map(|d| d.0), o.delimiter, by),
+        clear: |o| o.delimiter = None,
+        take: None,
+    },
+    Field {
+        name: "decimal comma",
+        help: "1,5 is one and a half",
+        text: |o| o.decimal_comma.map(yes),
+        step: |o, _, by| o.decimal_comma = next(&[true, false], o.decimal_comma, by),
+        clear: |o| o.decimal_comma = None,
+        take: None,
+    },
+    Field {
+        name: "header",
+        help: "the first line names the columns",
+        text: |o| o.header.map(yes),
+        step: |o, _, by| o.header = next(&[true, false], o.header, by),
+        clear: |o| o.header = None,
+        take: None,
+    },
+    Field {
+        name: "quotes",
+        help: "cells may stand in quotes",
+        text: |o| o.quotes.map(yes),
+        step: |o, _, by| o.quotes = next(&[true, false], o.quotes, by),
+        clear: |o| o.quotes = None,
+        take: None,
+    },
+    Field {
+        name: "order of dates",
+        help: "what 1/2/2005 means",
+        text: |o| o.day_first.map(|d| if d { "day first" } else { "month first" }.to_owned()),
+        step: |o, _, by| o.day_first = next(&[true, false], o.day_first, by),
+        clear: |o| o.day_first = None,
+        take: None,
+    },
+];
+
+const DELIMITERS: [(Delimiter, &str); 5] = [
+    (Delimiter::Byte(b','), "comma"),
+    (Delimiter::Byte(b';'), "semicolon"),
+    (Delimiter::Byte(b'\t'), "tab"),
+    (Delimiter::Byte(b'|'), "pipe"),
+    (Delimiter::Blanks, "blanks"),
+];
+
+fn yes(value: bool) -> String {
+    if value { "yes" } else { "no" }.to_owned()
+}
+
+/// Columns by name, after a word of its own.
+fn named(columns: &[String], first: Option<&str>) -> Vec<String> {
+    first.into_iter().map(str::to_owned).chain(columns.iter().cloned()).collect()
+}
+
+/// The value after `now` (or before it), with "recognised" between the last and the first.
+fn next<T: PartialEq + Clone>(values: &[T], now: Option<T>, by: isize) -> Option<T> {
+    let places = isize::try_from(values.len() + 1).unwrap_or(isize::MAX);
+    let at = now.and_then(|now| values.iter().position(|v| *v == now)).map_or(0, |at| at + 1);
+    let to = (isize::try_from(at).unwrap_or(0) + by).rem_euclid(places);
+    usize::try_from(to - 1).ok().and_then(|at| values.get(at)).cloned()
+}
+
+fn told(text: &str) -> Option<String> {
+    (!text.is_empty()).then(|| text.to_owned())
+}
+
+fn list(text: &str) -> Vec<String> {
+    text.split(',').map(str::trim).filter(|t| !t.is_empty()).map(str::to_owned).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_go_round_through_recognised() {
+        assert_eq!(next(&[1, 2], None, 1), Some(1));
+        assert_eq!(next(&[1, 2], Some(2), 1), None);
+        assert_eq!(next(&[1, 2], None, -1), Some(2));
+        assert_eq!(next(&[1, 2], Some(7), 1), Some(1), "what is not there any more is like nothing");
+        assert_eq!(next::<i32>(&[], None, 1), None);
+    }
+
+    #[test]
+    fn every_field_can_be_told_shown_and_taken_back() {
+        let columns = ["t".to_owned(), "x".to_owned()];
+        for field in FIELDS {
+            let mut options = LoadOptions::default();
+            match field.take {
+                Some(take) => take(&mut options, "x"),
+                None => (field.step)(&mut options, &columns, 1),
+            }
+            assert!((field.text)(&options).is_some(), "{}", field.name);
+            assert_ne!(options, LoadOptions::default(), "{}", field.name);
+            (field.clear)(&mut options);
+            assert_eq!(options, LoadOptions::default(), "{}", field.name);
+        }
+    }
+}

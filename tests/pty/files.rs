@@ -1,0 +1,130 @@
+//! Files from the screen: another record is picked and opened, a report and all outputs are written.
+
+use super::program::Folder;
+use super::terminal::{Terminal, title};
+use super::{COMPACT, WIDE};
+
+const OTHER: &str = "t,height\n0,1\n1,2\n2,3\n3,4\n4,5\n5,60\n6,7\n7,8\n8,9\n9,10\n10,11\n11,12\n";
+
+fn folder() -> Folder {
+    Folder::with(&[
+        ("demo.csv", include_bytes!("../../data/demo.csv")),
+        ("other.csv", OTHER.as_bytes()),
+        ("words.txt", b"a,b\nx,y\nz,w\n"),
+        ("esc\x1b]0;owned\x07.csv", b"t,x\n0,1\n1,2\n2,3\n"),
+    ])
+}
+
+fn start(folder: &Folder, size: (u16, u16)) -> Terminal {
+    let terminal = Terminal::start(&folder.path(""), "demo.csv", size, &[]);
+    terminal.settle();
+    terminal
+}
+
+const CTRL_O: &str = "\x0f";
+const CTRL_E: &str = "\x05";
+
+#[test]
+fn another_record_is_picked_tuned_and_reported_on() {
+    let folder = folder();
+    let mut terminal = start(&folder, WIDE);
+    terminal.keys(CTRL_O);
+    terminal.wait_for("other.csv");
+    terminal.look(|screen| assert!(screen.contents().contains("esc\\x1b]0;owned\\x07.csv"), "{}", screen.contents()));
+    terminal.keys("words");
+    terminal.wait_for("no column of");
+    terminal.keys("\x15other");
+    terminal.wait_for("12 rows, 2 columns");
+    terminal.keys("\r");
+    terminal.wait_until("the other record", |screen| title(screen).contains("other.csv · height"));
+    terminal.settle();
+    terminal.keys(":set k 6\r");
+    terminal.wait_for("k 6 · u undo");
+    terminal.settle();
+    terminal.keys(":report out.html\r");
+    terminal.wait_for("wrote out.html: report");
+    let report = folder.text("out.html");
+    assert!(report.contains("<h1>other.csv</h1>") && report.contains("k=6.0"));
+    // The knob was turned and nothing saved: another record is asked about, and the answer saves first.
+    terminal.keys(":open demo.csv\r");
+    terminal.wait_for("then open demo.csv");
+    terminal.keys("w");
+    terminal.wait_until("the first record again", |screen| title(screen).contains("demo.csv · vx_mps"));
+    terminal.settle();
+    terminal.keys("q");
+    assert_eq!(terminal.end().0, 0);
+    assert!(folder.text("other.wild.toml").contains("file = \"other.csv\""));
+    assert_eq!(folder.done("replay --check other.wild.toml"), "other.wild.toml: same result\n");
+}
+
+#[test]
+fn all_outputs_are_written_from_one_dialog() {
+    let folder = folder();
+    let mut terminal = start(&folder, COMPACT);
+    std::fs::write(folder.path("demo.flags.csv"), "theirs").unwrap();
+    terminal.keys(CTRL_E);
+    terminal.wait_for("demo.flags.csv  there already");
+    // Flags and report besides the cleaned file.
+    terminal.keys("\x1b[B \x1b[B\x1b[B \r");
+    terminal.wait_for("demo.flags.csv is there already");
+    terminal.keys("o");
+    terminal.wait_for("wrote 3 files");
+    terminal.keys("q");
+    assert_eq!(terminal.end().0, 0);
+    assert!(folder.text("demo.flags.csv").starts_with("row,time,"));
+    assert!(folder.text("demo.html").starts_with("<!DOCTYPE html>"));
+    // Of the channels, the one on the screen.
+    folder.done("clean demo.csv --channel vx_mps -o same.csv -q");
+    assert!(folder.text("demo.clean.csv") == folder.text("same.csv"));
+    assert!(!folder.path("demo.diagnostics.csv").exists());
+}
+
+#[test]
+fn columns_are_corrected_and_the_work_stays() {
+    let folder = folder();
+    let mut terminal = start(&folder, COMPACT);
+    terminal.wait_for("#61 ");
+    terminal.keys("a");
+    terminal.wait_for("accepted row 61");
+    terminal.settle();
+    terminal.keys(":loader\r");
+    terminal.wait_for("2356 rows, 4 columns");
+    // The sample number instead of the time column.
+    terminal.keys("\x7f\x1b[C");
+    terminal.wait_for("the sample number");
+    terminal.wait_for("sample number)");
+    terminal.keys("\r");
+    terminal.wait_for("then open demo.csv");
+    terminal.keys("d");
+    terminal.wait_for("loaded again; settings kept, 1 decisions kept");
+    terminal.settle();
+    terminal.keys(":w again.toml\r");
+    terminal.wait_for("saved again.toml");
+    terminal.keys("q");
+    assert_eq!(terminal.end().0, 0);
+    let session = folder.text("again.toml");
+    assert!(session.contains("time = \"sample\"") && session.contains("{ row = 61, "), "{session}");
+}
+
+#[test]
+fn a_session_saved_under_another_name_is_among_the_recent_files() {
+    let folder = folder();
+    let state = tempfile::TempDir::new().unwrap();
+    let environment = [("XDG_STATE_HOME", state.path().to_str().unwrap())];
+    let mut terminal = Terminal::start(&folder.path(""), "demo.csv", WIDE, &environment);
+    terminal.settle();
+    terminal.keys("W\x15mine.toml\r");
+    terminal.wait_for("saved mine.toml");
+    terminal.keys("q");
+    assert_eq!(terminal.end().0, 0);
+    let mut terminal = Terminal::start(&folder.path(""), "other.csv", WIDE, &environment);
+    terminal.settle();
+    terminal.keys(CTRL_O);
+    terminal.wait_for("recent");
+    terminal.keys("mine.toml");
+    terminal.wait_for("session on ");
+    terminal.keys("\r");
+    terminal.wait_until("the session", |screen| title(screen).contains("demo.csv · vx_mps"));
+    terminal.keys("q");
+    assert_eq!(terminal.end().0, 0);
+}
