@@ -388,4 +388,8 @@ fn rows_of_the_queue_stay_where_they_are_when_a_flag_comes_above_them() {
     // All but the heading, which counts them.
     let rows = |lines: &[String]| lines.iter().filter(|l| !l.contains("queue")).cloned().collect::<Vec<_>>();
     assert_eq!(rows(&before), rows(&after));
+    // Walking to the next row moves the mark, not the rows.
+    bench.keys("n");
+    let unmarked = |lines: &[String]| rows(lines).iter().map(|l| l.replace('>', " ")).collect::<Vec<_>>();
+    assert_eq!(unmarked(&after), unmarked(&queue(&bench)));
 }

@@ -304,6 +304,14 @@ mod tests {
     }
 
     #[test]
+    fn bold_and_dim_go_off_together_and_what_stays_comes_back() {
+        // The terminal of the test above cannot be both; real ones can.
+        let with = |modifier| Pen { modifier, ..PLAIN };
+        assert_eq!(parameters(with(Modifier::BOLD | Modifier::DIM), with(Modifier::DIM)), "22;2");
+        assert_eq!(parameters(with(Modifier::BOLD | Modifier::DIM), PLAIN), "22");
+    }
+
+    #[test]
     fn what_is_near_costs_little() {
         let mut buffer = Buffer::empty(AREA);
         buffer.set_string(3, 2, "12", Style::new().fg(Color::Indexed(245)));
