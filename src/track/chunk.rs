@@ -1,5 +1,7 @@
 //! The rows of a chunk of lines to numbers.
 
+use std::ops::Range;
+
 use super::body::{Body, Plan};
 use super::number::Cell;
 use super::order::UNREADABLE;
@@ -7,41 +9,55 @@ use super::quick::{Quick, QuickRow};
 use super::stamp::Count;
 use super::text::decoded;
 use super::timing::nanoseconds;
-use super::tokens::{OpenQuote, RecordKind, Records, Span, inner, is_empty, split};
+use super::tokens::{Layout, OpenQuote, RecordKind, Records, Span, inner, is_empty, split};
 
 /// A chunk of lines, and the buffers that its rows go to.
 pub(crate) struct Chunk<'a> {
     plan: &'a Plan<'a>,
+    /// That of the plan, but without a quote that does not occur.
+    layout: Layout,
     body: &'a mut Body,
 }
 
+/// A record that does not end: where it starts, and the line of its open quote from the start of the chunk.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Broken {
+    /// Offset of its first byte in the text.
+    pub(crate) start: usize,
+    /// The quote.
+    pub(crate) quote: OpenQuote,
+}
+
 impl<'a> Chunk<'a> {
-    /// With an empty `body`.
+    /// Into `body`, whatever it holds.
     pub(crate) fn new(plan: &'a Plan<'a>, body: &'a mut Body) -> Self {
-        Self { plan, body }
+        body.clear();
+        Self { plan, layout: plan.layout, body }
     }
 
-    /// Parses the lines of `chunk`.
+    /// Parses the records of `text` that begin in `range`; gives where the last of them ends.
     ///
     /// # Errors
-    /// [`OpenQuote`] where a quoted cell does not end.
-    pub(crate) fn parse(mut self, chunk: &[u8]) -> Result<(), OpenQuote> {
+    /// [`Broken`] where a quoted cell does not end.
+    pub(crate) fn parse(mut self, text: &[u8], range: Range<usize>) -> Result<usize, Broken> {
         let plan = self.plan;
-        let quick = Quick::new(plan.layout, plan.reading, plan.timing.as_ref(), &plan.slots, plan.counts);
+        self.layout = plan.layout.without_idle_quote(&text[range.clone()]);
+        let quick = Quick::new(self.layout, plan.reading, plan.timing.as_ref(), &plan.slots, plan.counts);
         let mut quick_row = QuickRow { values: vec![f64::NAN; self.body.numbers.len()], ..QuickRow::default() };
         let mut spans = Vec::new();
-        let mut rest = chunk;
-        while !rest.is_empty() {
+        let mut at = range.start;
+        while at < range.end {
+            let rest = &text[at..];
             if let Some(quick) = &quick
                 && let Some(length) = quick.read(rest, &mut quick_row)
             {
                 self.quick_row(&quick_row);
-                rest = &rest[length..];
+                at += length;
                 continue;
             }
-            rest = &rest[self.record(rest, &mut spans)?..];
+            at += self.record(rest, &mut spans).map_err(|quote| Broken { start: at, quote })?;
         }
-        Ok(())
+        Ok(at)
     }
 
     fn quick_row(&mut self, row: &QuickRow) {
@@ -60,14 +76,14 @@ impl<'a> Chunk<'a> {
 
     /// Takes the record at the start of `rest`; gives its length.
     fn record(&mut self, rest: &[u8], spans: &mut Vec<Span>) -> Result<usize, OpenQuote> {
-        let mut records = Records::new(rest, self.plan.layout);
+        let mut records = Records::new(rest, self.layout);
         let line = self.body.lines + 1;
         let Some(record) = records.next() else { return Ok(rest.len()) };
         let record = record.map_err(|q| OpenQuote { line: q.line + self.body.lines })?;
         self.body.lines += records.lines();
         if record.kind == RecordKind::Data {
-            split(record.bytes, self.plan.layout, spans);
-            if is_empty(record.bytes, spans, self.plan.layout) {
+            split(record.bytes, self.layout, spans);
+            if is_empty(record.bytes, spans, self.layout) {
                 self.body.empty_tail += 1;
             } else {
                 self.body.fill_empty_tail();
@@ -82,7 +98,7 @@ impl<'a> Chunk<'a> {
         if !self.plan.counts.contains(&spans.len()) {
             self.body.ragged.add(line, &format!("{} cells", spans.len()));
         }
-        let quote = self.plan.layout.quote;
+        let quote = self.layout.quote;
         let cell = |column: usize| {
             let raw = spans.get(column).map_or(&[][..], |s| s.of(record));
             // Most cells are bare: no padding, no quote.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::cells::Cells;
 use super::number::Reading;
-use super::sniff::{Look, look, most_frequent, sniff};
+use super::sniff::{Look, SAMPLE_BYTES, look, most_frequent, sniff};
 use super::text::Text;
 use super::tokens::{Layout, OpenQuote, Record, RecordKind, Records, split};
 use super::{LoadOptions, names, printable};
@@ -126,6 +126,13 @@ impl Head {
             sample: rows.iter().map(|l| l.cells.clone()).collect(),
             reading,
         })
+    }
+
+    /// True when the head of `part`, the first whole lines of a longer text, is that of the whole text: nothing of what
+    /// it was told from lay near the end.
+    pub(crate) fn needs_no_more(&self, part: &[u8]) -> bool {
+        let lines = self.preamble + self.sample.len();
+        lines == SAMPLE + MOST_PREAMBLE && part.len() > self.data_start + SAMPLE_BYTES
     }
 
     /// The sampled cells of a column; rows with another number of cells than usual are left out while there are

@@ -1,15 +1,18 @@
 //! Loading a record.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::body::{Body, Numbers, Plan, parse};
+use super::body::{Body, Numbers, Plan};
+use super::feed::{Feed, Unfit};
 use super::head::{Head, open_quote};
 use super::order::{Moments, Ordered, Rows, order};
 use super::roles::{Roles, assign};
 use super::shape::{refuse_long_form, refuse_other_formats};
+use super::streamed::streamed;
 use super::text::{Text, path_of, sha256, stored};
 use super::timing::{Timing, choose};
 use super::tokens::inner;
+use super::waves::{Failure, parse};
 use super::{
     Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Fault, Faults, Source, TimeAxis, TimeFormat, Track,
     notes, printable, rows,
@@ -48,88 +51,144 @@ pub struct LoadOptions {
 /// [`Error::Io`] when the source cannot be read; [`Error::Input`] when it is no table of numbers, with the line and
 /// the way out; [`Error::Usage`] when a column of the options is not there.
 pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
+    if let Source::File(path) = source
+        && let Some(track) = streamed(path, options)
+    {
+        return Ok(track);
+    }
     let path = path_of(source);
     let stored = stored(source)?;
     let text = Text::of(&stored, &path, options.encoding)?;
-    refuse_other_formats(text.body(), &path)?;
-    let head = Head::of(&text, options, &path)?;
-    refuse_long_form(&head, &path)?;
-    let by_sample = options.time.as_deref() == Some("sample") && !head.names.iter().any(|n| n == "sample");
-    let timing = if by_sample { None } else { choose(&head, options, &path)? };
-    let roles = assign(&head, timing.as_ref(), options)?;
-    let (sha256, parsed) =
-        rayon::join(|| sha256(&stored), || parse_rows(&text, &head, timing.as_ref(), &roles.slots, &path));
-    let (mut body, moments) = parsed?;
-    if u32::try_from(body.rows).is_err() {
-        return Err(Error::input(&path, format!("{} rows are too many", body.rows), "split the file below 2^32 rows"));
-    }
-    let columns = columns_of(&head, timing.as_ref(), &roles, &body, options)?;
-    let clock = timing.as_ref().is_some_and(|t| t.format == TimeFormat::Clock);
-    let ordered = moments.map(|m| order(m, clock));
-    let mut track = Track {
-        source: source.clone(),
-        sha256,
-        dialect: dialect_of(&head, &text, options),
-        rows: body.rows,
-        time: time_axis(&head, timing.as_ref(), body.rows),
-        truth: truth_of(&columns, &roles, &body, &path)?,
-        truth_told: roles.truth.is_some(),
-        channels: channels_of(&columns, &roles, &mut body, &path)?,
-        faults: cell_faults(&columns, &roles, &body),
-        columns,
-        notes: Vec::new(),
-    };
-    if let Some(ordered) = ordered {
-        take_times(&mut track, ordered, &text)?;
-    }
-    track.notes.extend(notes::about_shape(&track, &head));
-    Ok(track)
+    let understood = Understood::of(&text, options, &path)?;
+    let line_end = understood.head.layout.line_end;
+    let (sha256, parsed) = rayon::join(
+        || sha256(&stored),
+        || {
+            let rows = &text.body()[understood.head.data_start..];
+            understood.parse(|| Ok((Feed::of(rows, line_end), rows.len() as u64)))
+        },
+    );
+    let (parsed, _) = parsed.map_err(|failure| match failure {
+        Failure::Open(quote) => open_quote(&path, quote),
+        Failure::Unfit(_) => Error::input(&path, "it cannot be read", "copy or fetch the file again"),
+    })?;
+    understood.track(source, sha256, parsed, options, &|| Ok(Feed::of(text.body(), line_end)))
+}
+
+/// What the head of a file tells of the whole.
+pub(super) struct Understood {
+    pub(super) head: Head,
+    timing: Option<Timing>,
+    roles: Roles,
+    encoding: Encoding,
+    gzip: bool,
+    path: PathBuf,
 }
 
 /// The rows, and the moments of the time column where there is one.
-fn parse_rows(
-    text: &Text<'_>,
-    head: &Head,
-    timing: Option<&Timing>,
-    slots: &[Option<usize>],
-    path: &Path,
-) -> Result<(Body, Option<Moments>)> {
-    let rows = &text.body()[head.data_start..];
-    let mut plan = Plan {
-        layout: head.layout.without_idle_quote(rows),
-        encoding: text.encoding,
-        reading: &head.reading,
-        slots: slots.to_vec(),
-        counts: head.counts,
-        timing: timing.cloned(),
-        record_bytes: head.record_bytes,
-    };
-    let mut body = parse(rows, head.data_line, &plan).map_err(|q| open_quote(path, q))?;
-    let Some(timing) = timing else { return Ok((body, None)) };
-    if body.rounded == 0 || timing.format != TimeFormat::Seconds {
-        let moments = body.moments.take().map(Moments::Exact);
-        return Ok((body, moments));
-    }
-    // Times with more decimals than nanoseconds are doubles that were written out in full: take them as such.
-    let slot = slots.iter().flatten().max().map_or(0, |s| s + 1);
-    plan.timing = None;
-    plan.slots[timing.column] = Some(slot);
-    let mut body = parse(rows, head.data_line, &plan).map_err(|q| open_quote(path, q))?;
-    let seconds = body.numbers.pop().map(|n| n.values).unwrap_or_default();
-    Ok((body, Some(Moments::Float(seconds))))
-}
+type Parsed = (Body, Option<Moments>);
 
-fn dialect_of(head: &Head, text: &Text<'_>, options: &LoadOptions) -> Dialect {
-    Dialect {
-        delimiter: head.layout.delimiter,
-        quote: head.layout.quote,
-        decimal_comma: head.reading.decimal_comma,
-        encoding: text.encoding,
-        gzip: text.gzip,
-        header: head.header,
-        units_row: head.units_row,
-        missing: options.missing.clone(),
-        preamble: head.preamble,
+/// Reads a text again, from its start.
+pub(super) type Again<'a> = &'a dyn Fn() -> Result<Feed<'a>>;
+
+impl Understood {
+    /// From the text, or from so much of it that [`Head::needs_no_more`].
+    pub(super) fn of(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
+        refuse_other_formats(text.body(), path)?;
+        let head = Head::of(text, options, path)?;
+        refuse_long_form(&head, path)?;
+        let by_sample = options.time.as_deref() == Some("sample") && !head.names.iter().any(|n| n == "sample");
+        let timing = if by_sample { None } else { choose(&head, options, path)? };
+        let roles = assign(&head, timing.as_ref(), options)?;
+        let (encoding, gzip) = (text.encoding, text.gzip);
+        Ok(Self { head, timing, roles, encoding, gzip, path: path.to_path_buf() })
+    }
+
+    /// Parses the rows of a feed that begins with the first of them and has about so many bytes; gives the feed of
+    /// the first pass too.
+    pub(super) fn parse<'a>(
+        &self,
+        rows: impl Fn() -> std::result::Result<(Feed<'a>, u64), Unfit>,
+    ) -> std::result::Result<(Parsed, Feed<'a>), Failure> {
+        let slots = &self.roles.slots;
+        let mut plan = Plan {
+            layout: self.head.layout,
+            encoding: self.encoding,
+            reading: &self.head.reading,
+            slots: slots.clone(),
+            counts: self.head.counts,
+            timing: self.timing.clone(),
+            record_bytes: self.head.record_bytes,
+        };
+        let (mut feed, bytes) = rows().map_err(Failure::Unfit)?;
+        let mut body = parse(&mut feed, bytes, self.head.data_line, &plan)?;
+        let Some(timing) = &self.timing else { return Ok(((body, None), feed)) };
+        if body.rounded == 0 || timing.format != TimeFormat::Seconds {
+            let moments = body.moments.take().map(Moments::Exact);
+            return Ok(((body, moments), feed));
+        }
+        // Times with more decimals than nanoseconds are doubles that were written out in full: take them as such.
+        drop(body);
+        let slot = slots.iter().flatten().max().map_or(0, |s| s + 1);
+        plan.timing = None;
+        plan.slots[timing.column] = Some(slot);
+        let (mut again, bytes) = rows().map_err(Failure::Unfit)?;
+        let mut body = parse(&mut again, bytes, self.head.data_line, &plan)?;
+        let seconds = body.numbers.pop().map(|n| n.values).unwrap_or_default();
+        Ok(((body, Some(Moments::Float(seconds))), feed))
+    }
+
+    /// The track of these rows.
+    pub(super) fn track(
+        &self,
+        source: &Source,
+        sha256: String,
+        (mut body, moments): Parsed,
+        options: &LoadOptions,
+        again: Again<'_>,
+    ) -> Result<Track> {
+        let Self { head, timing, roles, path, .. } = self;
+        let timing = timing.as_ref();
+        if u32::try_from(body.rows).is_err() {
+            let what = format!("{} rows are too many", body.rows);
+            return Err(Error::input(path, what, "split the file below 2^32 rows"));
+        }
+        let columns = columns_of(head, timing, roles, &body, options)?;
+        let clock = timing.is_some_and(|t| t.format == TimeFormat::Clock);
+        let ordered = moments.map(|m| order(m, clock));
+        let mut track = Track {
+            source: source.clone(),
+            sha256,
+            dialect: self.dialect(options),
+            rows: body.rows,
+            time: time_axis(head, timing, body.rows),
+            truth: truth_of(&columns, roles, &body, path)?,
+            truth_told: roles.truth.is_some(),
+            channels: channels_of(&columns, roles, &mut body, path)?,
+            faults: cell_faults(&columns, roles, &body),
+            columns,
+            notes: Vec::new(),
+        };
+        if let Some(ordered) = ordered {
+            take_times(&mut track, ordered, again)?;
+        }
+        track.notes.extend(notes::about_shape(&track, head));
+        Ok(track)
+    }
+
+    fn dialect(&self, options: &LoadOptions) -> Dialect {
+        let head = &self.head;
+        Dialect {
+            delimiter: head.layout.delimiter,
+            quote: head.layout.quote,
+            decimal_comma: head.reading.decimal_comma,
+            encoding: self.encoding,
+            gzip: self.gzip,
+            header: head.header,
+            units_row: head.units_row,
+            missing: options.missing.clone(),
+            preamble: head.preamble,
+        }
     }
 }
 
@@ -261,7 +320,7 @@ fn time_axis(head: &Head, timing: Option<&Timing>, rows: usize) -> TimeAxis {
 }
 
 /// Takes the times of the rows, and finds the lines of those that are of no use.
-fn take_times(track: &mut Track, ordered: Ordered, text: &Text<'_>) -> Result<()> {
+fn take_times(track: &mut Track, ordered: Ordered, again: Again<'_>) -> Result<()> {
     let Ordered { origin_ns, seconds, repeated, backward, unreadable } = ordered;
     let last = [&repeated, &backward, &unreadable].iter().filter_map(|r| r.first.last().copied()).max();
     track.time.origin_ns = origin_ns;
@@ -269,12 +328,12 @@ fn take_times(track: &mut Track, ordered: Ordered, text: &Text<'_>) -> Result<()
     let mut faults = [(repeated, Fault::default()), (backward, Fault::default()), (unreadable, Fault::default())];
     let column = track.time.column.unwrap_or_default();
     if let Some(last) = last {
-        rows::walk(track, text, |row, record, splitter| {
+        rows::walk_feed(track, &mut again()?, |row, record, splitter| {
             for (_, fault) in faults.iter_mut().filter(|(r, _)| r.first.contains(&row)) {
                 let spans = splitter.cells(record);
                 let raw = spans.get(column).map_or(&[][..], |s| s.of(record.bytes));
                 let cell = &raw[inner(raw, track.dialect.quote)];
-                fault.add(record.line, &super::text::decoded(cell, text.encoding));
+                fault.add(record.line, &super::text::decoded(cell, track.dialect.encoding));
             }
             Ok(row < last)
         })?;
@@ -285,7 +344,7 @@ fn take_times(track: &mut Track, ordered: Ordered, text: &Text<'_>) -> Result<()
     if let Some(row) = first_backward
         && backward.count * 10 > track.rows
     {
-        track.notes.push(notes::about_backward_times(track, text, row, &backward)?);
+        track.notes.push(notes::about_backward_times(track, &mut again()?, row, &backward)?);
     }
     track.faults.repeated_times = repeated;
     track.faults.backward_times = backward;

@@ -1,8 +1,8 @@
 //! What a user should know before trusting a record, in plain words.
 
 use super::cells::Cells;
+use super::feed::Feed;
 use super::head::Head;
-use super::text::Text;
 use super::{ColumnKind, Fault, TimeFormat, Track, names, printable, rows, timing};
 use crate::error::Result;
 
@@ -16,16 +16,16 @@ const IDS: [&str; 17] = [
 ///
 /// # Errors
 /// What a walk over the rows gives.
-pub(crate) fn about_backward_times(track: &Track, text: &Text<'_>, row: usize, backward: &Fault) -> Result<String> {
+pub(crate) fn about_backward_times(track: &Track, text: &mut Feed<'_>, row: usize, backward: &Fault) -> Result<String> {
     let mut before: Vec<String> = Vec::new();
     let mut here: Vec<String> = Vec::new();
-    rows::walk(track, text, |r, record, splitter| {
+    rows::walk_feed(track, text, |r, record, splitter| {
         if r + 1 >= row {
             let cells = Cells {
                 record: record.bytes,
                 spans: splitter.cells(record),
                 quote: track.dialect.quote,
-                encoding: text.encoding,
+                encoding: track.dialect.encoding,
                 line: 0,
             };
             before =

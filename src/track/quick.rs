@@ -1,6 +1,8 @@
 //! Rows of bare decimal numbers, read in one pass over their bytes. Nearly every row of nearly every file is one;
 //! any other row is left to the tokeniser, which gives the same for both.
 
+use memchr::memchr_iter;
+
 use super::number::{POWERS, Reading};
 use super::timing::Timing;
 use super::tokens::{Layout, inner};
@@ -24,6 +26,7 @@ enum Role {
 pub(crate) struct Quick<'a> {
     delimiter: u8,
     line_end: u8,
+    quote: Option<u8>,
     roles: Vec<Role>,
     reading: &'a Reading,
     timing: Option<&'a Timing>,
@@ -48,8 +51,8 @@ struct Digits {
 }
 
 impl<'a> Quick<'a> {
-    /// None where the layout is not one of bare numbers between single bytes: quotes, blanks, decimal commas, rows of
-    /// different lengths, date and time apart.
+    /// None where the layout is not one of numbers between single bytes: blanks, decimal commas, rows of different
+    /// lengths, date and time apart.
     pub(crate) fn new(
         layout: Layout,
         reading: &'a Reading,
@@ -59,7 +62,7 @@ impl<'a> Quick<'a> {
     ) -> Option<Self> {
         let Delimiter::Byte(delimiter) = layout.delimiter else { return None };
         let apart = timing.is_some_and(|t| t.date_column.is_some());
-        if layout.quote.is_some() || reading.decimal_comma || counts != [slots.len(); 2] || apart {
+        if reading.decimal_comma || counts != [slots.len(); 2] || apart {
             return None;
         }
         let role = |(column, slot): (usize, &Option<usize>)| match (timing.filter(|t| t.column == column), slot) {
@@ -72,7 +75,7 @@ impl<'a> Quick<'a> {
             (None, None) => Role::Other,
         };
         let roles = slots.iter().enumerate().map(role).collect();
-        Some(Self { delimiter, line_end: layout.line_end, roles, reading, timing })
+        Some(Self { delimiter, line_end: layout.line_end, quote: layout.quote, roles, reading, timing })
     }
 
     /// Reads the row at the start of `bytes` into `row` and gives its length with the line end; none where it is not a
@@ -82,14 +85,15 @@ impl<'a> Quick<'a> {
         row.missing.clear();
         let mut at = 0;
         let mut present = false;
-        if matches!(bytes.first(), Some(b'#' | b'%' | b'/')) {
+        // A comment may be indented.
+        if bytes.first().is_none_or(|b| matches!(b, b'#' | b'%' | b'/') || b.is_ascii_whitespace()) {
             return None;
         }
         let last = self.roles.len() - 1;
         for (column, role) in self.roles.iter().enumerate() {
             let start = at;
             match role {
-                Role::Count { .. } | Role::Number(_) => match self.digits(bytes, &mut at)? {
+                Role::Count { .. } | Role::Number(_) => match self.number(bytes, &mut at)? {
                     Some(digits) => {
                         present = true;
                         match *role {
@@ -113,8 +117,7 @@ impl<'a> Quick<'a> {
                 },
                 Role::Time | Role::Other => {
                     at += bytes[at..].iter().take_while(|b| **b != self.delimiter && **b != self.line_end).count();
-                    let cell = &bytes[start..at];
-                    let cell = &cell[inner(cell, None)];
+                    let cell = self.plain(&bytes[start..at])?;
                     if matches!(role, Role::Other) {
                         if self.reading.is_marker(cell) {
                             row.missing.push(column);
@@ -137,10 +140,39 @@ impl<'a> Quick<'a> {
         present.then(|| self.end(bytes, at)).flatten()
     }
 
-    /// The digits from `at` to the end of the cell; none inside for an empty cell.
+    /// The text of a cell that was cut at the first delimiter: none where a quote may hide one, or another quote.
+    #[inline]
+    fn plain<'b>(&self, cell: &'b [u8]) -> Option<&'b [u8]> {
+        let Some(quote) = self.quote else { return Some(&cell[inner(cell, None)]) };
+        match memchr_iter(quote, cell).count() {
+            0 => Some(&cell[inner(cell, None)]),
+            2 if cell.first() == Some(&quote) && cell.trim_ascii_end().last() == Some(&quote) => {
+                Some(&cell[inner(cell, self.quote)])
+            }
+            _ => None,
+        }
+    }
+
+    /// The digits from `at` to the end of the cell, in quotes or without; none inside for an empty cell.
     #[inline]
     #[expect(clippy::option_option, reason = "not quick, empty, or digits")]
-    fn digits(&self, bytes: &[u8], at: &mut usize) -> Option<Option<Digits>> {
+    fn number(&self, bytes: &[u8], at: &mut usize) -> Option<Option<Digits>> {
+        match self.quote {
+            Some(quote) if bytes.get(*at) == Some(&quote) => {
+                *at += 1;
+                let digits = self.digits(bytes, at, |b| b == quote);
+                // What follows another end is no end of the cell.
+                (bytes.get(*at) == Some(&quote)).then(|| *at += 1)?;
+                digits
+            }
+            _ => self.digits(bytes, at, |b| b == self.delimiter || b == self.line_end || b == b'\r'),
+        }
+    }
+
+    /// The digits from `at` to the first byte that `ends` them; none inside where there is none.
+    #[inline]
+    #[expect(clippy::option_option, reason = "not quick, empty, or digits")]
+    fn digits(&self, bytes: &[u8], at: &mut usize, ends: impl Fn(u8) -> bool) -> Option<Option<Digits>> {
         let start = *at;
         let negative = bytes.get(start) == Some(&b'-');
         let first = start + usize::from(negative);
@@ -153,7 +185,7 @@ impl<'a> Quick<'a> {
                 mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
             } else if byte == b'.' && point == usize::MAX {
                 point = here;
-            } else if byte == self.delimiter || byte == self.line_end || byte == b'\r' {
+            } else if ends(byte) {
                 break;
             } else {
                 return None;
@@ -207,7 +239,8 @@ impl Digits {
 
 #[cfg(test)]
 mod tests {
-    use super::super::body::{Plan, parse};
+    use super::super::body::Plan;
+    use super::super::waves::parse_bytes;
     use super::super::{Encoding, stamp};
     use super::*;
     use proptest::prelude::*;
@@ -220,15 +253,15 @@ mod tests {
         /// The quick way and the tokeniser agree on any text, row by row.
         #[test]
         fn quick_rows_are_what_the_tokeniser_gives(
-            cells in proptest::collection::vec("[-]?[0-9]{0,10}[.]?[0-9]{0,10}|nan|x| 1 |1e3|#|-5|\"7\"", 3 * 40),
+            cells in proptest::collection::vec("[-]?[0-9]{0,10}[.]?[0-9]{0,10}|nan|x| 1 |1e3| ?#|-5|\"-?[0-9.]{0,4}\" ?|\"a,b\"|\" c\"", 3 * 40),
             crlf: bool,
+            quoted: bool,
         ) {
             let end = if crlf { "\r\n" } else { "\n" };
             let text: String = cells.chunks(3).map(|row| row.join(",") + end).collect();
             let reading = Reading::new(false, &["-5".into()]);
             let timing = Timing { column: 0, date_column: None, format: TimeFormat::Seconds };
             let slots = vec![None, Some(0), Some(1)];
-            // Without a quote in the layout rows are quick; a quote that does not occur changes nothing else.
             let plan = |quote, counts| Plan {
                 layout: layout(quote),
                 encoding: Encoding::Utf8 { bom: false },
@@ -238,9 +271,10 @@ mod tests {
                 timing: Some(timing.clone()),
                 record_bytes: 10,
             };
-            let quick = parse(text.as_bytes(), 1, &plan(None, [3, 3])).unwrap();
+            let quote = quoted.then_some(b'"');
+            let quick = parse_bytes(text.as_bytes(), 1, &plan(quote, [3, 3])).unwrap();
             // Another allowed number of cells, which no row has, turns the quick way off.
-            let slow = parse(text.as_bytes(), 1, &plan(None, [3, 99])).unwrap();
+            let slow = parse_bytes(text.as_bytes(), 1, &plan(quote, [3, 99])).unwrap();
             prop_assert_eq!((quick.rows, &quick.moments, &quick.missing), (slow.rows, &slow.moments, &slow.missing));
             prop_assert_eq!(quick.rounded, slow.rounded);
             for (a, b) in quick.numbers.iter().zip(&slow.numbers) {
@@ -265,6 +299,13 @@ mod tests {
         {
             assert_eq!(quick.read(other.as_bytes(), &mut row), None, "{other}");
         }
-        assert!(Quick::new(layout(Some(b'"')), &reading, None, &[Some(0)], [1, 1]).is_none());
+        let quoted = Quick::new(layout(Some(b'"')), &reading, Some(&timing), &[None, Some(0), None], [3, 3]).unwrap();
+        assert_eq!(quoted.read(b"\"2019-11-11\",\"-1.5\",\" a \"\nx", &mut row), Some(26));
+        assert_eq!((row.moment, row.values[0], row.missing.len()), (stamp::iso(b"2019-11-11").unwrap(), -1.5, 0));
+        for other in
+            ["2019-11-11,\"1,5\",\n", "2019-11-11,1,\"a,b\"\n", "2019-11-11,1,\"a\nb\"\n", "2019-11-11,1,\"a\"b\"\n"]
+        {
+            assert_eq!(quoted.read(other.as_bytes(), &mut row), None, "{other}");
+        }
     }
 }

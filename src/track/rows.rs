@@ -3,9 +3,10 @@
 use std::borrow::Cow;
 
 use super::cells::Cells;
+use super::feed::Feed;
 use super::head::open_quote;
 use super::text::{Text, path_of, sha256, stored};
-use super::tokens::{Layout, Record, RecordKind, Records, Span, is_empty, line_end_of, split};
+use super::tokens::{Layout, OpenQuote, Record, RecordKind, Records, Span, is_empty, line_end_of, split};
 use super::{Dialect, Track};
 use crate::error::{Error, Result};
 
@@ -75,6 +76,43 @@ impl Splitter {
     }
 }
 
+/// Tells the data rows among records.
+struct Walk {
+    /// Lines before the first data row that are still to come.
+    before: usize,
+    row: usize,
+    splitter: Splitter,
+}
+
+impl Walk {
+    fn new(track: &Track, layout: Layout) -> Self {
+        Self { before: track.dialect.preamble, row: 0, splitter: Splitter { layout, spans: Vec::new() } }
+    }
+
+    /// Calls `f` with a record if it is a data row; false when no more are wanted.
+    fn take<'a>(
+        &mut self,
+        record: &Record<'a>,
+        f: &mut impl FnMut(usize, &Record<'a>, &mut Splitter) -> Result<bool>,
+    ) -> Result<bool> {
+        if record.kind != RecordKind::Data {
+            return Ok(true);
+        }
+        // Empty rows before the first data row belong to what stands before it.
+        if self.row == 0 {
+            let layout = self.splitter.layout;
+            let empty = is_empty(record.bytes, self.splitter.cells(record), layout);
+            if self.before > 0 || empty {
+                self.before -= usize::from(!empty);
+                return Ok(true);
+            }
+        }
+        let more = f(self.row, record, &mut self.splitter)?;
+        self.row += 1;
+        Ok(more)
+    }
+}
+
 /// Calls `f` with each data row (from 0), its record and what splits it, until `f` gives false.
 ///
 /// # Errors
@@ -85,29 +123,62 @@ pub(crate) fn walk<'a>(
     mut f: impl FnMut(usize, &Record<'a>, &mut Splitter) -> Result<bool>,
 ) -> Result<()> {
     let layout = track.dialect.layout(text.body()).without_idle_quote(text.body());
-    let mut splitter = Splitter { layout, spans: Vec::new() };
-    let mut before = track.dialect.preamble;
-    let mut row = 0;
+    let mut walk = Walk::new(track, layout);
     for record in Records::new(text.body(), layout) {
-        if row == track.rows {
+        if walk.row == track.rows {
             break;
         }
         let record = record.map_err(|q| open_quote(&path_of(&track.source), q))?;
-        if record.kind != RecordKind::Data {
-            continue;
-        }
-        // Empty rows before the first data row belong to what stands before it.
-        if row == 0 {
-            let empty = is_empty(record.bytes, splitter.cells(&record), layout);
-            if before > 0 || empty {
-                before -= usize::from(!empty);
-                continue;
-            }
-        }
-        if !f(row, &record, &mut splitter)? {
+        if !walk.take(&record, &mut f)? {
             break;
         }
-        row += 1;
     }
     Ok(())
+}
+
+/// [`walk`] over a text that is read piece by piece. Offsets of records count from the piece.
+///
+/// # Errors
+/// What `f` gives, and when the text can no longer be read.
+pub(crate) fn walk_feed(
+    track: &Track,
+    feed: &mut Feed<'_>,
+    mut f: impl FnMut(usize, &Record<'_>, &mut Splitter) -> Result<bool>,
+) -> Result<()> {
+    const PIECE: usize = 1 << 20;
+    let Dialect { delimiter, quote, .. } = track.dialect;
+    let layout = Layout { delimiter, quote, line_end: feed.line_end() };
+    let mut walk = Walk::new(track, layout);
+    let (mut piece, mut lines, mut last) = (Vec::new(), 0, false);
+    while !last {
+        let mut next = Vec::new();
+        last = feed.next(&mut next, PIECE).map_err(|_| unreadable(track))?;
+        piece.append(&mut next);
+        let (mut done, mut passed) = (0, 0);
+        let mut records = Records::new(&piece, layout);
+        while let Some(record) = records.next() {
+            if walk.row == track.rows {
+                return Ok(());
+            }
+            match record {
+                Ok(record) => {
+                    if !walk.take(&Record { line: record.line + lines, ..record }, &mut f)? {
+                        return Ok(());
+                    }
+                    done = record.start + record.bytes.len() + record.end.len();
+                    passed = records.lines();
+                }
+                // What does not end here may end in the next piece.
+                Err(_) if !last => break,
+                Err(q) => return Err(open_quote(&path_of(&track.source), OpenQuote { line: q.line + lines })),
+            }
+        }
+        piece.drain(..done);
+        lines += passed;
+    }
+    Ok(())
+}
+
+fn unreadable(track: &Track) -> Error {
+    Error::input(path_of(&track.source), "it cannot be read again", "load it again, or put the old file back")
 }

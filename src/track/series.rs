@@ -2,9 +2,11 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
+use super::interval::nominal_interval;
 use super::{Channel, TimeAxis};
 
 /// Steps in one piece of parallel work.
@@ -27,7 +29,10 @@ pub struct Series<'a> {
 /// What a [`Series`] has to remember of a channel so that it can be looked at again at no cost: nothing but the
 /// interval when every row is present, otherwise copies of the present samples.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Samples {
+pub struct Samples(OnceLock<Remembered>);
+
+#[derive(Debug, Clone, PartialEq)]
+struct Remembered {
     present: Option<Present>,
     interval: f64,
 }
@@ -43,20 +48,21 @@ impl Samples {
     /// The present samples of `channel`.
     #[must_use]
     pub fn of(channel: &Channel, time: &TimeAxis) -> Self {
-        let series = Series::of(channel, time);
-        let present = series.rows.map(|rows| Present {
-            rows: rows.into_owned(),
-            t: series.t.into_owned(),
-            y: series.y.into_owned(),
-        });
-        Self { present, interval: series.interval }
+        Self(OnceLock::from(Remembered::of(channel, time)))
     }
 
-    /// The samples, of the channel and the times that they were made of.
+    /// The samples of a channel that perhaps nobody looks at: nothing is remembered before somebody does.
+    #[must_use]
+    pub fn later() -> Self {
+        Self(OnceLock::new())
+    }
+
+    /// The samples, of the channel and the times that they are made of.
     #[must_use]
     pub fn series<'a>(&'a self, channel: &'a Channel, time: &'a TimeAxis) -> Series<'a> {
-        let interval = self.interval;
-        match &self.present {
+        let Remembered { present, interval } = self.0.get_or_init(|| Remembered::of(channel, time));
+        let interval = *interval;
+        match present {
             None => {
                 let n = time.seconds.len().min(channel.values.len());
                 let (t, y) = (Cow::Borrowed(&time.seconds[..n]), Cow::Borrowed(&channel.values[..n]));
@@ -67,6 +73,29 @@ impl Samples {
                 Series { rows: Some(Cow::Borrowed(&p.rows)), t, y, interval }
             }
         }
+    }
+}
+
+impl Remembered {
+    fn of(channel: &Channel, time: &TimeAxis) -> Self {
+        let series = Series::of(channel, time);
+        let present = series.rows.map(|rows| Present {
+            rows: rows.into_owned(),
+            t: series.t.into_owned(),
+            y: series.y.into_owned(),
+        });
+        Self { present, interval: series.interval }
+    }
+}
+
+impl Channel {
+    /// Times of the first and the last present sample, in seconds; none when there is none.
+    #[must_use]
+    pub fn ends(&self, time: &TimeAxis) -> Option<(f64, f64)> {
+        let present = |(t, y): (&f64, &f64)| (t.is_finite() && y.is_finite()).then_some(*t);
+        let n = time.seconds.len().min(self.values.len());
+        let samples = || time.seconds[..n].iter().zip(&self.values[..n]);
+        samples().find_map(present).zip(samples().rev().find_map(present))
     }
 }
 
@@ -191,20 +220,6 @@ pub fn lost_samples(dt: f64, interval: f64) -> usize {
     steps.saturating_sub(1)
 }
 
-fn nominal_interval(t: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = t.windows(2).map(|w| w[1] - w[0]).collect();
-    if steps.is_empty() {
-        return f64::NAN;
-    }
-    let middle = steps.len() / 2;
-    let (below, &mut upper, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
-    if t.len().is_multiple_of(2) {
-        return upper;
-    }
-    let lower = below.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    f64::midpoint(lower, upper)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -216,6 +231,25 @@ mod tests {
         let s = Series::new(&t, &y);
         assert_eq!((s.t.as_ref(), s.y.as_ref()), (&[0.0, 3.0, 4.0][..], &[5.0, 8.0, 9.0][..]));
         assert_eq!((s.row(1), s.position(3), s.position(2)), (3, Some(1), None));
+    }
+
+    #[test]
+    fn samples_looked_at_later_are_those_made_at_once_and_the_ends_are_theirs() {
+        let time = TimeAxis {
+            name: String::new(),
+            column: None,
+            date_column: None,
+            format: super::super::TimeFormat::SampleNumber,
+            origin_ns: 0,
+            seconds: vec![f64::NAN, 1.0, 2.0, 4.0],
+        };
+        for values in [vec![1.0; 4], vec![1.0, f64::NAN, 2.0, 3.0], vec![f64::NAN; 4]] {
+            let channel = Channel { name: String::new(), unit: String::new(), column: 0, values };
+            let (now, later) = (Samples::of(&channel, &time), Samples::later());
+            let (a, b) = (now.series(&channel, &time), later.series(&channel, &time));
+            assert_eq!((&a.t, &a.y, a.interval.to_bits()), (&b.t, &b.y, b.interval.to_bits()));
+            assert_eq!(channel.ends(&time), a.t.first().copied().zip(a.t.last().copied()));
+        }
     }
 
     #[test]

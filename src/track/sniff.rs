@@ -7,7 +7,7 @@ use super::tokens::{Layout, RecordKind, Records, inner, kind_of, line_end_of, sp
 use super::{Delimiter, LoadOptions, stamp};
 
 /// How much of a file is looked at.
-const SAMPLE_BYTES: usize = 64 << 10;
+pub(crate) const SAMPLE_BYTES: usize = 64 << 10;
 const SAMPLE_RECORDS: usize = 100;
 /// Blanks stand inside cells too (dates with times, padding): they must fit clearly better than any other delimiter.
 const BLANKS_HANDICAP: f64 = 0.1;

@@ -48,13 +48,24 @@ pub(crate) fn stored(source: &Source) -> Result<Cow<'_, [u8]>> {
 
 /// SHA-256 in lower-case hexadecimal.
 pub(crate) fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().fold(String::with_capacity(64), |mut text, byte| {
+    hex(&Sha256::digest(bytes))
+}
+
+/// Bytes in lower-case hexadecimal.
+pub(crate) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::with_capacity(2 * bytes.len()), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");
         text
     })
 }
 
 impl<'a> Text<'a> {
+    /// The first part of a text, in the encoding that the whole was taken for.
+    pub(crate) fn part(bytes: &'a [u8], encoding: Encoding, gzip: bool) -> Self {
+        let start = if encoding == (Encoding::Utf8 { bom: true }) { 3 } else { 0 };
+        Self { bytes: Cow::Borrowed(bytes), start, encoding, gzip }
+    }
+
     /// The text in `stored`, in the `wanted` encoding or in the one its bytes show.
     ///
     /// # Errors

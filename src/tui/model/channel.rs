@@ -96,12 +96,13 @@ pub enum YMode {
 impl ChannelState {
     pub(super) fn new(track: &Track, plan: &Plan, touched: bool) -> Self {
         let channel = track.channels.iter().position(|c| c.name == plan.channel).unwrap_or(0);
-        let samples = Samples::of(&track.channels[channel], &track.time);
-        let view = View::whole(Axis::Time(&samples.series(&track.channels[channel], &track.time).t));
+        // A record may have many channels, and most are never shown.
+        let ends = track.channels[channel].ends(&track.time).map(|(first, last)| [first, last]);
+        let view = View::whole(Axis::Time(ends.as_ref().map_or(&[], |ends| ends.as_slice())));
         let k = plan.setup.settings.mattering().position(|(p, _)| matches!(p.key, "k" | "c"));
         Self {
             channel,
-            samples: Arc::new(samples),
+            samples: Arc::new(Samples::later()),
             drawn: None,
             flags: Flags::default(),
             queue: Vec::new(),
