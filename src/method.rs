@@ -16,6 +16,7 @@ pub mod alpha_beta_gamma;
 pub mod chauvenet;
 pub mod diff_median;
 pub mod five_point;
+mod gated;
 pub mod gesd;
 pub mod grubbs;
 pub mod hampel;
@@ -39,6 +40,7 @@ mod verdict;
 mod window;
 pub mod wright;
 
+pub use gated::Gated;
 pub use judged::{Directions, Judged};
 pub use segment::{Rate, Segment, zero_scale};
 pub use verdict::{Direction, Restart, TIE, Verdict, Way, exceeds, reaches};

@@ -121,7 +121,7 @@ fn judge(track: &Track, index: usize, samples: &Samples, setup: &Setup) -> Resul
         Ok(pool) => pool.install(timed)?,
         Err(_) => timed()?,
     };
-    let verdicts = detection.judged.verdict.clone();
+    let verdicts = detection.judged.verdict().to_vec();
     let outcome = settle(track, channel, samples, Arc::new(detection), &Decisions::default(), &stop)?;
     let series = samples.series(channel, &track.time);
     let score = track.truth_for(&channel.name).map(|truth| Score::of(&outcome, &series, truth));

@@ -106,6 +106,6 @@ fn consensus(
     let segments = segments(&series, &setup.settings);
     let judged = Judged { verdict: ballot.verdicts(votes), ..Judged::unchecked(series.len()) };
     let scales = vec![Scales::default(); segments.len()];
-    let detection = Detection { setup: setup.clone(), segments, scales, judged };
+    let detection = Detection::new(setup.clone(), segments, scales, judged);
     Ok(settle(track, channel, samples, Arc::new(detection), &Decisions::default(), &Stop::never())?)
 }

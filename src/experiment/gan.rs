@@ -74,7 +74,7 @@ fn trial(record: &Record) -> Result<Figures> {
         let outcome = trial.judge(&setup("kalman", preset, keys)?)?;
         let tally = trial.tally(&outcome);
         let error = trial.repair_error(&outcome, Wild::Patch).unwrap_or(f64::NAN);
-        let after = after_the_patch(record, &outcome.detection.judged.expected);
+        let after = after_the_patch(record, outcome.detection.judged.expected());
         let values = vec![
             tally.patch as f64,
             tally.isolated as f64,

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::verdict::{Direction, Restart, Verdict, reaches};
+use super::verdict::{Direction, Restart, Verdict};
 
 /// Samples in one piece of parallel work.
 const CHUNK: usize = 8192;
@@ -68,34 +68,10 @@ impl Judged {
     pub fn gate(&mut self, y: &[f64], k: f64) {
         let said = |((&p, &scale), &y): ((&f64, &f64), &f64)| {
             let tolerance = k * scale;
-            let verdict = if p.is_nan() {
-                Verdict::Unchecked
-            } else if reaches((y - p).abs(), tolerance) {
-                Verdict::Outlier
-            } else {
-                Verdict::Normal
-            };
-            (tolerance, verdict)
+            (tolerance, Verdict::of_deviation(y, p, tolerance))
         };
         let scores = self.expected.par_iter().zip(&self.scale).zip(y).with_min_len(CHUNK);
         scores.map(said).unzip_into_vecs(&mut self.tolerance, &mut self.verdict);
-    }
-
-    /// The same scores gated with another multiplier.
-    #[must_use]
-    pub fn regated(&self, y: &[f64], k: f64) -> Self {
-        let mut judged = Self {
-            expected: self.expected.clone(),
-            scale: self.scale.clone(),
-            directions: self.directions.clone(),
-            repair_code: self.repair_code.clone(),
-            own: self.own.clone(),
-            restarts: self.restarts.clone(),
-            warnings: self.warnings.clone(),
-            ..Self::default()
-        };
-        judged.gate(y, k);
-        judged
     }
 
     /// The part of a channel's judgement that is about one of its segments.

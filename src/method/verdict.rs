@@ -19,6 +19,20 @@ impl Verdict {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::Normal, Self::Outlier, Self::Suspect, Self::Unchecked, Self::Missing];
 
+    /// What is said of the value `y` where `expected` was to be measured, within `tolerance`: unchecked where nothing
+    /// was expected.
+    #[must_use]
+    #[inline]
+    pub fn of_deviation(y: f64, expected: f64, tolerance: f64) -> Self {
+        if expected.is_nan() {
+            Self::Unchecked
+        } else if reaches((y - expected).abs(), tolerance) {
+            Self::Outlier
+        } else {
+            Self::Normal
+        }
+    }
+
     /// Its word in files and on the screen.
     #[must_use]
     pub fn word(self) -> &'static str {

@@ -1,8 +1,10 @@
 //! A result made ready for drawing, on the worker thread.
 
+use std::ops::Range;
 use std::sync::Arc;
 
-use super::{Flag, FlagState, Histogram, Pyramid, Span};
+use super::pyramid::BLOCK;
+use super::{Flag, FlagState, Flags, Histogram, Pyramid, Span};
 use crate::method::Verdict;
 use crate::param::Value;
 use crate::review::Ruling;
@@ -17,85 +19,193 @@ pub struct Drawn {
     /// True for each sample that is an outlier: the curve is that of the others.
     pub hidden: Vec<bool>,
     /// Extremes of the kept samples.
-    pub kept: Pyramid,
+    pub kept: Arc<Pyramid>,
     /// The residual in the units of the panel at which a sample is flagged: the multiplier of the scale where the
     /// method has one, and the residual is in scales; otherwise 1, and it is in tolerances.
     pub threshold: f64,
     /// Extremes of the residual in the units of the panel.
-    pub ratios: Pyramid,
+    pub ratios: Arc<Pyramid>,
     /// How often which residual occurs, in the units of the panel.
     pub histogram: Histogram,
     /// Extremes of the expected value.
-    pub expected: Pyramid,
+    pub expected: Arc<Pyramid>,
     /// Extremes of the tolerance band.
-    pub band: Pyramid,
+    pub band: Arc<Pyramid>,
     /// Extremes of the repaired values.
-    pub repaired: Pyramid,
+    pub repaired: Arc<Pyramid>,
     /// Extremes of the record after repair.
-    pub after: Pyramid,
+    pub after: Arc<Pyramid>,
     /// Positions in the order of the queue: outliers, suspects and decisions, by time.
     pub positions: Vec<u32>,
+    /// The flags, arranged for drawing.
+    pub arranged: Flags,
+}
+
+/// What depends on which samples are outliers.
+struct Samples {
+    hidden: Vec<bool>,
+    /// Kept samples, repaired values, and the record after repair.
+    pyramids: [Arc<Pyramid>; 3],
+    /// Where it is not that of the result before, when it was made from there.
+    changed: Option<Vec<Range<usize>>>,
 }
 
 impl Drawn {
     /// Arranges `outcome` of `series`.
     #[must_use]
     pub fn new(outcome: Outcome, series: &Series<'_>) -> Self {
-        let n = series.len();
-        let mut hidden = vec![false; n];
-        outcome.outliers.iter().for_each(|&i| hidden[i] = true);
-        let positions = outcome.marks.iter().map(|m| m.position).collect();
-        let empty = Pyramid::default;
-        let threshold = multiplier(&outcome).unwrap_or(1.0);
+        Self::after(outcome, series, None)
+    }
+
+    /// The same, after an earlier result of the same series: what did not change is taken from there.
+    #[must_use]
+    pub fn after(outcome: Outcome, series: &Series<'_>, previous: Option<&Self>) -> Self {
+        let previous = previous.filter(|p| p.hidden.len() == series.len());
         let mut drawn = Self {
-            threshold,
-            outcome: Arc::new(outcome),
-            hidden,
-            kept: empty(),
-            ratios: empty(),
+            threshold: multiplier(&outcome).unwrap_or(1.0),
+            hidden: Vec::new(),
+            kept: Arc::default(),
+            ratios: Arc::default(),
             histogram: Histogram::default(),
-            expected: empty(),
-            band: empty(),
-            repaired: empty(),
-            after: empty(),
-            positions,
+            expected: Arc::default(),
+            band: Arc::default(),
+            repaired: Arc::default(),
+            after: Arc::default(),
+            positions: outcome.marks.iter().map(|m| m.position).collect(),
+            arranged: Flags::default(),
+            outcome: Arc::new(outcome),
         };
+        let judged = |d: &Self| &d.outcome.detection.judged;
+        let k = |d: &Self| judged(d).scales().map(|(k, _)| k.to_bits());
+        let scored = previous.filter(|p| judged(p).shares_scores(judged(&drawn)));
+        let same_band = scored.filter(|p| k(p) == k(&drawn));
+        let in_scales = |d: &Self| d.in_scales() && k(d).is_some();
+        let same_residuals = scored.filter(|p| (in_scales(p) && in_scales(&drawn)) || k(p) == k(&drawn));
         let of = &drawn;
-        let ((kept, ratios, histogram), ((expected, band), (repaired, after))) = rayon::join(
+        let ((samples, flags), (ratios, (expected, band))) = rayon::join(
+            || (of.samples(series, previous), Flags::new(&of.flags(series))),
             || {
-                let kept = Pyramid::build(&series.y, |i| of.hidden[i]);
-                let ratios = Pyramid::build_spans(n, |i| of.residual(series, i).map_or(Span::EMPTY, Span::at));
-                let histogram = Histogram::new(residual_top(threshold), |i| of.residual(series, i), &of.hidden);
-                (kept, ratios, histogram)
-            },
-            || {
-                let expected = Pyramid::build_spans(n, |i| of.expected_span(i));
-                let band = Pyramid::build_spans(n, |i| of.band_span(i));
-                let repaired = Pyramid::build_spans(n, |i| of.repaired_span(i));
-                let after = Pyramid::build_spans(n, |i| of.after_span(series, i));
-                ((expected, band), (repaired, after))
+                let ratios = same_residuals.map_or_else(|| Arc::new(of.ratios(series)), |p| Arc::clone(&p.ratios));
+                let expected = scored.map_or_else(|| Arc::new(of.expectation(series)), |p| Arc::clone(&p.expected));
+                (ratios, (expected, same_band.map_or_else(|| Arc::new(of.band()), |p| Arc::clone(&p.band))))
             },
         );
-        (drawn.kept, drawn.ratios, drawn.histogram) = (kept, ratios, histogram);
-        (drawn.expected, drawn.band) = (expected, band);
-        (drawn.repaired, drawn.after) = (repaired, after);
+        (drawn.ratios, drawn.expected, drawn.band, drawn.arranged) = (ratios, expected, band, flags);
+        let Samples { hidden, pyramids, changed } = samples;
+        [drawn.kept, drawn.repaired, drawn.after] = pyramids;
+        drawn.hidden = hidden;
+        drawn.histogram = drawn.counted(series, same_residuals, changed.as_deref());
         drawn
+    }
+
+    /// The histogram of the residuals; after an earlier result with the same ones, from there, with the samples of
+    /// `changed` looked at again.
+    fn counted(&self, series: &Series<'_>, same: Option<&Self>, changed: Option<&[Range<usize>]>) -> Histogram {
+        let top = residual_top(self.threshold);
+        match (same, changed) {
+            (Some(before), Some(changed)) if before.histogram.top().to_bits() == top.to_bits() => {
+                let inside = |block: &Range<usize>| block.start..block.end.min(self.hidden.len());
+                let turned = changed.iter().flat_map(inside).filter(|&i| self.hidden[i] != before.hidden[i]);
+                before.histogram.turned(turned.map(|i| (self.residual(series, i), self.hidden[i])))
+            }
+            _ => Histogram::new(top, |i| self.residual(series, i), &self.hidden),
+        }
+    }
+
+    fn ratios(&self, series: &Series<'_>) -> Pyramid {
+        Pyramid::build_spans(series.len(), |i| self.residual(series, i).map_or(Span::EMPTY, Span::at))
+    }
+
+    fn expectation(&self, series: &Series<'_>) -> Pyramid {
+        Pyramid::build_spans(series.len(), |i| self.expected_span(i))
+    }
+
+    /// The pyramid of the tolerance band, which every step of a multiplier moves everywhere.
+    fn band(&self) -> Pyramid {
+        let judged = &self.outcome.detection.judged;
+        let Some((k, scale)) = judged.scales() else {
+            return Pyramid::build_spans(judged.expected().len(), |i| self.band_span(i));
+        };
+        let expected = judged.expected();
+        Pyramid::build_blocks(expected.len(), |block| {
+            let both = expected[block.clone()].iter().zip(&scale[block]);
+            both.fold(Span::EMPTY, |all, (p, s)| all.union(band(*p, k * s)))
+        })
+    }
+
+    /// Which samples are outliers, and what depends on that.
+    fn samples(&self, series: &Series<'_>, previous: Option<&Self>) -> Samples {
+        let changed = previous.and_then(|p| Some((p, p.changed_to(&self.outcome)?)));
+        let mut hidden = changed.as_ref().map_or_else(|| vec![false; series.len()], |(p, _)| p.hidden.clone());
+        if let Some((previous, _)) = &changed {
+            previous.outcome.outliers.iter().for_each(|&i| hidden[i] = false);
+        }
+        self.outcome.outliers.iter().for_each(|&i| hidden[i] = true);
+        let fix = |i: usize| if hidden[i] { span(self.outcome.fix(i)) } else { Span::EMPTY };
+        let kept = |i: usize| if hidden[i] { Span::EMPTY } else { span(series.y.get(i).copied()) };
+        let after = |i: usize| if hidden[i] { span(self.outcome.fix(i)) } else { span(series.y.get(i).copied()) };
+        let pyramids = match &changed {
+            Some((previous, blocks)) => {
+                let mut pyramids = [&previous.kept, &previous.repaired, &previous.after].map(Arc::clone);
+                for block in blocks {
+                    Arc::make_mut(&mut pyramids[0]).update_spans(kept, block.clone());
+                    Arc::make_mut(&mut pyramids[1]).update_spans(fix, block.clone());
+                    Arc::make_mut(&mut pyramids[2]).update_spans(after, block.clone());
+                }
+                pyramids
+            }
+            None => {
+                let n = series.len();
+                let (kept, (repaired, after)) = rayon::join(
+                    || Pyramid::build_spans(n, kept),
+                    || rayon::join(|| Pyramid::build_spans(n, fix), || Pyramid::build_spans(n, after)),
+                );
+                [kept, repaired, after].map(Arc::new)
+            }
+        };
+        Samples { changed: changed.map(|(_, blocks)| blocks), hidden, pyramids }
+    }
+
+    /// The blocks in which an outlier, or what takes its place, is another than in `outcome`; none when there are so
+    /// many that starting from nothing is as quick.
+    fn changed_to(&self, outcome: &Outcome) -> Option<Vec<Range<usize>>> {
+        let (old, new) = (&self.outcome, outcome);
+        let most = self.hidden.len() / BLOCK / 8;
+        let mut blocks: Vec<usize> = Vec::new();
+        let (mut a, mut b) = (0, 0);
+        loop {
+            let (left, right) = (old.outliers.get(a), new.outliers.get(b));
+            let (Some(&position), same) = (match (left, right) {
+                (Some(l), Some(r)) if l == r => (Some(l), old.fixes[a].to_bits() == new.fixes[b].to_bits()),
+                (Some(l), Some(r)) => (Some(l.min(r)), false),
+                (left, right) => (left.or(right), false),
+            }) else {
+                break;
+            };
+            a += usize::from(left == Some(&position));
+            b += usize::from(right == Some(&position));
+            if !same && blocks.last() != Some(&(position / BLOCK)) {
+                blocks.push(position / BLOCK);
+            }
+            if blocks.len() > most {
+                return None;
+            }
+        }
+        Some(blocks.into_iter().map(|block| block * BLOCK..(block + 1) * BLOCK).collect())
     }
 
     /// The expected value of a sample, for drawing.
     #[must_use]
     pub fn expected_span(&self, i: usize) -> Span {
-        span(self.outcome.detection.judged.expected.get(i).copied())
+        span(self.outcome.detection.judged.expected().get(i).copied())
     }
 
     /// Expected value minus tolerance to expected value plus tolerance.
     #[must_use]
     pub fn band_span(&self, i: usize) -> Span {
         let judged = &self.outcome.detection.judged;
-        match (judged.expected.get(i), judged.tolerance.get(i)) {
-            (Some(p), Some(h)) if *h > 0.0 && (p + h).is_finite() && (p - h).is_finite() => {
-                Span { low: p - h, high: p + h }
-            }
+        match (judged.expected().get(i), judged.tolerance(i)) {
+            (Some(p), Some(h)) => band(*p, h),
             _ => Span::EMPTY,
         }
     }
@@ -127,7 +237,11 @@ impl Drawn {
     /// Residual of the sample at `position` in the units of the panel, signed; none without a tolerance.
     #[must_use]
     pub fn residual(&self, series: &Series<'_>, position: usize) -> Option<f64> {
-        ratio(&self.outcome, series, position).map(|ratio| ratio * self.threshold)
+        match self.outcome.detection.judged.scales() {
+            // In scales it does not depend on the multiplier.
+            Some((_, scale)) if self.in_scales() => ratio_of(&self.outcome, series, position, *scale.get(position)?),
+            _ => ratio(&self.outcome, series, position).map(|ratio| ratio * self.threshold),
+        }
     }
 
     /// True when the residual is in scales, false when it is in tolerances.
@@ -161,10 +275,21 @@ fn span(value: Option<f64>) -> Span {
 }
 
 fn ratio(outcome: &Outcome, series: &Series<'_>, i: usize) -> Option<f64> {
-    let judged = &outcome.detection.judged;
-    let (p, h) = (*judged.expected.get(i)?, *judged.tolerance.get(i)?);
-    let ratio = (series.y.get(i)? - p) / h;
-    (h > 0.0 && ratio.is_finite()).then_some(ratio)
+    ratio_of(outcome, series, i, outcome.detection.judged.tolerance(i)?)
+}
+
+/// The deviation of the sample at `i` in units of `of`.
+#[inline]
+fn ratio_of(outcome: &Outcome, series: &Series<'_>, i: usize, of: f64) -> Option<f64> {
+    let ratio = (series.y.get(i)? - outcome.detection.judged.expected().get(i)?) / of;
+    (of > 0.0 && ratio.is_finite()).then_some(ratio)
+}
+
+/// Around an expected value by a tolerance.
+#[inline]
+fn band(expected: f64, tolerance: f64) -> Span {
+    let (low, high) = (expected - tolerance, expected + tolerance);
+    if tolerance > 0.0 && low.is_finite() && high.is_finite() { Span { low, high } } else { Span::EMPTY }
 }
 
 /// A good residual for the edge of a plot: the threshold lies between a quarter and half of the way out, and the edge
@@ -188,3 +313,6 @@ pub fn state(mark: &Mark) -> Option<FlagState> {
         (None, _) => None,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -64,15 +64,20 @@ impl Part {
     fn of(top: f64, range: Range<usize>, residual: &impl Fn(usize) -> Option<f64>, flagged: &[bool]) -> Self {
         let mut part = Self::new();
         for i in range {
-            let place = match residual(i) {
-                Some(r) if r < -top => &mut part.others[0],
-                Some(r) if r > top => &mut part.others[1],
-                Some(r) if !r.is_nan() => &mut part.bins[bin(top, r)],
-                _ => &mut part.others[2],
-            };
-            place.add(flagged[i]);
+            part.place(top, residual(i)).add(flagged[i]);
         }
         part
+    }
+
+    /// Where a residual is counted.
+    #[inline]
+    fn place(&mut self, top: f64, residual: Option<f64>) -> &mut Tally {
+        match residual {
+            Some(r) if r < -top => &mut self.others[0],
+            Some(r) if r > top => &mut self.others[1],
+            Some(r) if !r.is_nan() => &mut self.bins[bin(top, r)],
+            _ => &mut self.others[2],
+        }
     }
 
     fn with(mut self, other: &Self) -> Self {
@@ -95,7 +100,23 @@ impl Histogram {
     pub fn new(top: f64, residual: impl Fn(usize) -> Option<f64> + Sync, flagged: &[bool]) -> Self {
         let starts = (0..flagged.len()).into_par_iter().step_by(CHUNK);
         let part = |start: usize| Part::of(top, start..(start + CHUNK).min(flagged.len()), &residual, flagged);
-        let all = starts.map(part).reduce(Part::new, |a, b| a.with(&b));
+        Self::summed(top, &starts.map(part).reduce(Part::new, |a, b| a.with(&b)))
+    }
+
+    /// The same residuals, of which some have become those of outliers, or (false) are no longer. Each is given with
+    /// its residual.
+    #[must_use]
+    pub fn turned(&self, samples: impl Iterator<Item = (Option<f64>, bool)>) -> Self {
+        let bins = self.before.windows(2).map(|pair| pair[1].minus(pair[0])).collect();
+        let mut part = Part { bins, others: [self.below, self.above, self.without] };
+        for (residual, flagged) in samples {
+            let place = part.place(self.top, residual);
+            place.flagged = if flagged { place.flagged + 1 } else { place.flagged.saturating_sub(1) };
+        }
+        Self::summed(self.top, &part)
+    }
+
+    fn summed(top: f64, all: &Part) -> Self {
         let mut before = Vec::with_capacity(BINS + 1);
         before.push(Tally::default());
         let sums = all.bins.iter().scan(Tally::default(), |sum, tally| {

@@ -5,6 +5,8 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 /// Samples in a block of the lowest level.
 pub(crate) const BLOCK: usize = 64;
 /// Nodes of one level under a node of the next.
@@ -70,7 +72,7 @@ pub struct Pyramid {
 impl Pyramid {
     /// The pyramid over the values of `y` that are not hidden.
     #[must_use]
-    pub fn build(y: &[f64], is_hidden: impl Fn(usize) -> bool) -> Self {
+    pub fn build(y: &[f64], is_hidden: impl Fn(usize) -> bool + Sync) -> Self {
         Self::build_spans(y.len(), kept(y, is_hidden))
     }
 
@@ -88,9 +90,18 @@ impl Pyramid {
 
     /// The pyramid over `len` spans; [`Span::EMPTY`] where there is no value.
     #[must_use]
-    pub fn build_spans(len: usize, span: impl Fn(usize) -> Span) -> Self {
+    pub fn build_spans(len: usize, span: impl Fn(usize) -> Span + Sync) -> Self {
+        Self::build_blocks(len, |block| block.fold(Span::EMPTY, |all, i| all.union(span(i))))
+    }
+
+    /// The pyramid over `len` spans, of which `over_range` gives the union over a range.
+    pub(super) fn build_blocks(len: usize, over_range: impl Fn(Range<usize>) -> Span + Sync) -> Self {
+        /// Blocks that one piece of parallel work has at least.
+        const PIECE: usize = 512;
         let mut pyramid = Self { len, levels: Vec::new() };
-        let mut nodes: Vec<Span> = (0..len.div_ceil(BLOCK)).map(|node| block_span(node, len, &span)).collect();
+        let block = |node: usize| over_range(node * BLOCK..len.min((node + 1) * BLOCK));
+        let blocks = (0..len.div_ceil(BLOCK)).into_par_iter().with_min_len(PIECE);
+        let mut nodes: Vec<Span> = blocks.map(block).collect();
         while !nodes.is_empty() {
             let next: Vec<Span> = nodes.chunks(FAN_OUT).map(over).collect();
             let at_top = nodes.len() <= FAN_OUT;
@@ -196,7 +207,7 @@ fn node_size(level: usize) -> usize {
     (0..level).fold(BLOCK, |size, _| size * FAN_OUT)
 }
 
-fn kept<'a>(y: &'a [f64], is_hidden: impl Fn(usize) -> bool + 'a) -> impl Fn(usize) -> Span + 'a {
+fn kept<'a, F: Fn(usize) -> bool + 'a>(y: &'a [f64], is_hidden: F) -> impl Fn(usize) -> Span + use<'a, F> {
     move |i| if is_hidden(i) { Span::EMPTY } else { Span::at(y[i]) }
 }
 

@@ -20,7 +20,6 @@ pub fn diagnostics(track: &Track, session: &Session, analysed: &Analysed, out: &
     walk(track, session, analysed, |row, cells, channel| {
         let position = channel.position(row);
         let judged = &channel.outcome.detection.judged;
-        let of = |values: &[f64]| position.and_then(|p| values.get(p).copied());
         let clean = position.map_or_else(|| channel.fill(row), |p| channel.clean(p));
         let fields = [
             &(row + 1).to_string(),
@@ -28,8 +27,8 @@ pub fn diagnostics(track: &Track, session: &Session, analysed: &Analysed, out: &
             channel.name,
             &cell(channel.raw(track, row, position)),
             verdict_word(channel.outcome, position),
-            &cell(of(&judged.expected)),
-            &cell(of(&judged.tolerance).filter(|h| *h > 0.0)),
+            &cell(position.and_then(|p| judged.expected().get(p).copied())),
+            &cell(position.and_then(|p| judged.tolerance(p)).filter(|h| *h > 0.0)),
             &cell(clean),
         ];
         write_row(&mut writer, &fields)

@@ -140,7 +140,7 @@ pub(super) fn evidence(session: &Session, channel: &Walk<'_>, row: usize, positi
         .and_then(|m| m.ruling)
         .and_then(|_| u32::try_from(row).ok())
         .and_then(|row| session.plans[channel.plan].decisions.get(row));
-    let directions = judged.directions.get(position);
+    let directions = judged.directions().get(position);
     let in_run = |r: &crate::session::Run| InRun {
         start: channel.series.row(r.start) + 1,
         length: r.length,
@@ -152,8 +152,8 @@ pub(super) fn evidence(session: &Session, channel: &Walk<'_>, row: usize, positi
         verdict,
         state: mark.and_then(crate::plot::state),
         run: outcome.run(position).map(in_run),
-        expected: judged.expected.get(position).copied().filter(|p| p.is_finite()),
-        tolerance: judged.tolerance.get(position).copied().filter(|h| *h > 0.0),
+        expected: judged.expected().get(position).copied().filter(|p| p.is_finite()),
+        tolerance: judged.tolerance(position).filter(|h| *h > 0.0),
         forward: directions.and_then(|d| d.forward),
         backward: directions.and_then(|d| d.backward),
         clean: channel.clean(position),

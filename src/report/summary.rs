@@ -80,13 +80,13 @@ impl Summary {
         let channels = session.plans.iter().zip(&analysed.channels).map(|(plan, (index, samples, outcome))| {
             let series = samples.series(&track.channels[*index], &track.time);
             let detection = &outcome.detection;
-            let restarts = detection.judged.restarts.iter().map(|r| RestartSummary {
+            let restarts = detection.judged.restarts().iter().map(|r| RestartSummary {
                 row: series.row(r.at) + 1,
                 time: track.time.full_label(series.t[r.at]),
                 direction: if r.way == Way::Forward { "forward" } else { "backward" },
             });
             let mut warnings = detection.setup.method.warnings(&detection.setup.settings);
-            warnings.extend(detection.judged.warnings.iter().cloned());
+            warnings.extend(detection.judged.warnings().iter().cloned());
             ChannelSummary {
                 channel: plan.channel.clone(),
                 method: plan.setup.method.about().id,

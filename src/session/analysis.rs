@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::Setup;
 use crate::error::{Error, Result};
 use crate::method::noise::{self, Scales};
-use crate::method::{Judged, Rate, Segment, Together, Verdict, judge_segments, segments};
+use crate::method::{Gated, Judged, Rate, Segment, Together, Verdict, judge_segments, segments};
 use crate::repair::{self, Damage, Gap};
 use crate::review::{Decision, Decisions};
 use crate::stop::{Stop, Stopped};
@@ -28,7 +28,7 @@ pub struct Detection {
     /// The scales of each of them.
     pub scales: Vec<Scales>,
     /// One entry per present sample.
-    pub judged: Judged,
+    pub judged: Gated,
 }
 
 /// Runs the method of `setup` over a channel. With `previous`, a detection of the same channel that differs in a
@@ -57,10 +57,17 @@ pub fn detect(
     stop.check()?;
     let scales = noise::scales(&series, &segments, &setup.settings);
     let judged = judge_segments(setup.method, &series, (&segments, &scales), rate, &setup.settings, stop)?;
-    Ok(Detection { setup: setup.clone(), segments, scales, judged })
+    Ok(Detection::new(setup.clone(), segments, scales, judged))
 }
 
 impl Detection {
+    /// What a method said under `setup`.
+    #[must_use]
+    pub fn new(setup: Setup, segments: Vec<Range<usize>>, scales: Vec<Scales>, judged: Judged) -> Self {
+        let k = setup.method.gate(&setup.settings).map(|key| setup.settings.real(key));
+        Self { setup, segments, scales, judged: Gated::new(judged, k) }
+    }
+
     /// The same detection under a setup that differs in the repair alone.
     #[must_use]
     pub fn with_repair(&self, setup: &Setup) -> Self {
@@ -87,15 +94,14 @@ fn rate_channel<'a>(track: &'a Track, setup: &Setup) -> Result<Option<&'a Channe
 }
 
 /// The judgement under `setup` when it differs from that of `previous` in the gate alone.
-fn regated(previous: &Detection, setup: &Setup, series: &Series<'_>) -> Option<Judged> {
+fn regated(previous: &Detection, setup: &Setup, series: &Series<'_>) -> Option<Gated> {
     let key = setup.method.gate(&setup.settings)?;
     let mut same = previous.setup.settings.clone();
     same.set(key, key, setup.settings.get(key)?).ok()?;
     let comparable = previous.setup.method.about().id == setup.method.about().id
         && same == setup.settings
-        && previous.setup.rate == setup.rate
-        && previous.judged.scale.len() == series.len();
-    comparable.then(|| previous.judged.regated(&series.y, setup.settings.real(key)))
+        && previous.setup.rate == setup.rate;
+    comparable.then(|| previous.judged.regated(&series.y, setup.settings.real(key))).flatten()
 }
 
 /// Runs a method that judges channels together ([`Method::together`](crate::method::Method::together)) over all
@@ -113,12 +119,7 @@ pub fn detect_together(
         channels.iter().map(|(channel, samples)| samples.series(channel, &track.time)).collect();
     let series: Vec<&Series<'_>> = series.iter().collect();
     let parts = setup.method.judge_together(&series, &setup.settings, stop)?;
-    let detection = |part: Together| Detection {
-        setup: setup.clone(),
-        segments: part.segments,
-        scales: part.scales,
-        judged: part.judged,
-    };
+    let detection = |part: Together| Detection::new(setup.clone(), part.segments, part.scales, part.judged);
     Ok(parts.into_iter().map(detection).collect())
 }
 
@@ -135,7 +136,7 @@ pub fn settle(
     stop: &Stop,
 ) -> std::result::Result<Outcome, Stopped> {
     let series = samples.series(channel, &track.time);
-    let marks = marks(&detection.judged, &series, decisions);
+    let marks = marks(detection.judged.verdict(), &series, decisions);
     let outliers: Vec<usize> =
         marks.iter().filter(|m| m.effective() == Verdict::Outlier).map(|m| m.position as usize).collect();
     let mut fixes = Vec::with_capacity(outliers.len());
@@ -155,7 +156,7 @@ pub fn settle(
         let segment = Segment::of(&series, range, *scales, None);
         let part = detection.judged.slice(range.clone());
         let own = detection.setup.method.own_repair(&segment, &detection.setup.settings, &part, &local);
-        let expected: Vec<f64> = local.iter().map(|&i| part.expected[i]).collect();
+        let expected: Vec<f64> = local.iter().map(|&i| detection.judged.expected()[range.start + i]).collect();
         let damage = Damage { t: segment.t, y: segment.y, outliers: &local, own: &own, expected: &expected };
         fixes.extend(repair::repair(&damage, &detection.setup.repair));
         runs.extend(repair::runs(&local).map(|r| Run { start: range.start + local[r.start], length: r.len() }));
@@ -173,35 +174,45 @@ pub fn settle(
     Ok(Outcome { detection, marks, outliers, fixes, runs, fills, counts })
 }
 
-fn marks(judged: &Judged, series: &Series<'_>, decisions: &Decisions) -> Vec<Mark> {
+fn marks(verdict: &[Verdict], series: &Series<'_>, decisions: &Decisions) -> Vec<Mark> {
+    /// Most samples are normal and nobody decided on them: so many are passed over at a time.
+    const STRIDE: usize = 64;
     let decided = |(row, d): (u32, &Decision)| series.position(row as usize).map(|p| (p, d.ruling, d.said));
     let mut decided = decisions.iter().filter_map(decided).peekable();
     let mut marks = Vec::new();
-    #[expect(clippy::cast_possible_truncation, reason = "the loader refuses files of 2^32 rows and more")]
-    for (i, &verdict) in judged.verdict.iter().enumerate() {
-        let decision = decided.next_if(|d| d.0 == i);
-        if decision.is_some() || matches!(verdict, Verdict::Outlier | Verdict::Suspect) {
-            let (ruling, said) = (decision.map(|d| d.1), decision.and_then(|d| d.2));
-            marks.push(Mark { position: i as u32, verdict, ruling, said });
+    for (chunk, part) in verdict.chunks(STRIDE).enumerate() {
+        let first = chunk * STRIDE;
+        let flags = |v: Verdict| matches!(v, Verdict::Outlier | Verdict::Suspect);
+        let flagged = part.iter().fold(false, |any, v| any | flags(*v));
+        if !flagged && decided.peek().is_none_or(|d| d.0 >= first + part.len()) {
+            continue;
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "the loader refuses files of 2^32 rows and more")]
+        for (i, &verdict) in (first..).zip(part) {
+            let decision = decided.next_if(|d| d.0 == i);
+            if decision.is_some() || flags(verdict) {
+                let (ruling, said) = (decision.map(|d| d.1), decision.and_then(|d| d.2));
+                marks.push(Mark { position: i as u32, verdict, ruling, said });
+            }
         }
     }
     marks
 }
 
 fn count(rows: usize, detection: &Detection, marks: &[Mark], fixes: &[f64], runs: &[Run], filled: usize) -> Counts {
-    let judged = &detection.judged;
+    let verdict = detection.judged.verdict();
     let decided_unchecked = marks.iter().filter(|m| m.verdict == Verdict::Unchecked).count();
     let removed = fixes.iter().filter(|v| v.is_nan()).count();
     let isolated = runs.iter().filter(|r| r.length == 1).count();
     Counts {
         rows,
-        present: judged.verdict.len(),
-        missing: rows - judged.verdict.len(),
+        present: verdict.len(),
+        missing: rows - verdict.len(),
         flagged: fixes.len(),
         isolated,
         patches: runs.len() - isolated,
         suspects: marks.iter().filter(|m| m.effective() == Verdict::Suspect).count(),
-        unchecked: judged.verdict.iter().filter(|v| **v == Verdict::Unchecked).count() - decided_unchecked,
+        unchecked: verdict.iter().filter(|v| **v == Verdict::Unchecked).count() - decided_unchecked,
         repaired: fixes.len() - removed,
         removed,
         filled,

@@ -148,7 +148,7 @@ pub fn sweep(
 }
 
 fn count(value: f64, detection: &Detection, series: &Series<'_>, truth: Option<&[bool]>) -> Point {
-    let verdict = &detection.judged.verdict;
+    let verdict = detection.judged.verdict();
     let flagged = verdict.iter().filter(|v| **v == Verdict::Outlier).count();
     let scored = truth.map(|truth| {
         let wild = |at: usize| truth.get(series.row(at)).copied().unwrap_or(false);

@@ -25,7 +25,8 @@ pub struct Judge {
     samples: Arc<Samples>,
     setup: Setup,
     decisions: Decisions,
-    previous: Option<Arc<Detection>>,
+    /// The last result of the channel.
+    previous: Option<Arc<Drawn>>,
     /// All channels that are judged together with this one, itself among them; empty when it is judged alone.
     together: Vec<(usize, Arc<Samples>)>,
 }
@@ -50,7 +51,7 @@ impl Judge {
             channel: state.channel,
             samples: Arc::clone(&state.samples),
             decisions: model.session.plans[plan].decisions.clone(),
-            previous: state.drawn.as_ref().map(|d| Arc::clone(&d.outcome.detection)),
+            previous: state.drawn.clone(),
             together: (0..model.channels.len()).filter(shares).map(member).collect(),
             setup,
         }
@@ -65,7 +66,8 @@ impl Judge {
         let detection = self.detection(stop)?;
         let outcome = settle(&self.track, channel, &self.samples, detection, &self.decisions, stop)?;
         stop.check()?;
-        Ok(Drawn::new(outcome, &self.samples.series(channel, &self.track.time)))
+        let series = self.samples.series(channel, &self.track.time);
+        Ok(Drawn::after(outcome, &series, self.previous.as_deref()))
     }
 }
 
@@ -76,7 +78,7 @@ impl Judge {
     /// As [`Judge::run`].
     pub fn detection(&self, stop: &Stop) -> Result<Arc<Detection>> {
         let channel = &self.track.channels[self.channel];
-        Ok(match &self.previous {
+        Ok(match self.previous.as_ref().map(|d| &d.outcome.detection) {
             // Which channels share the setup may have changed, though this one's has not.
             _ if !self.together.is_empty() => Arc::new(self.detect_together(stop)?),
             Some(previous) if previous.setup.same_detection(&self.setup) => {
@@ -85,7 +87,7 @@ impl Judge {
                 if same { Arc::clone(previous) } else { Arc::new(previous.with_repair(&self.setup)) }
             }
             previous => {
-                let previous = previous.as_deref();
+                let previous = previous.map(Arc::as_ref);
                 Arc::new(detect(&self.track, channel, &self.samples, &self.setup, previous, stop)?)
             }
         })

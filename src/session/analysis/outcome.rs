@@ -128,7 +128,7 @@ impl Outcome {
     pub fn verdict(&self, position: usize) -> Verdict {
         match self.mark(position) {
             Some(mark) => mark.effective(),
-            None => self.detection.judged.verdict.get(position).copied().unwrap_or(Verdict::Missing),
+            None => self.detection.judged.verdict().get(position).copied().unwrap_or(Verdict::Missing),
         }
     }
 

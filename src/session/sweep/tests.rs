@@ -94,7 +94,7 @@ fn every_count_is_that_of_the_method_with_that_value() {
             let mut one = setup.clone();
             one.set_text(key, &point.value.to_string()).unwrap();
             let alone = detect(&track, channel, &samples, &one, None, &stop).unwrap();
-            let flagged = alone.judged.verdict.iter().filter(|v| **v == Verdict::Outlier).count();
+            let flagged = alone.judged.verdict().iter().filter(|v| **v == Verdict::Outlier).count();
             assert_eq!(point.flagged, flagged, "{id} {key} = {}", point.value);
         }
     }

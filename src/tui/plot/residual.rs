@@ -56,7 +56,7 @@ impl ResidualPlot<'_> {
 
     /// The extremes of `len` ratios.
     #[must_use]
-    pub fn pyramid(len: usize, ratio: impl Fn(usize) -> Option<f64>) -> Pyramid {
+    pub fn pyramid(len: usize, ratio: impl Fn(usize) -> Option<f64> + Sync) -> Pyramid {
         Pyramid::build_spans(len, |i| span(ratio(i)))
     }
 

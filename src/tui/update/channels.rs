@@ -68,7 +68,7 @@ pub(super) fn epoch(model: &mut Model) -> Vec<Effect> {
             continue;
         };
         holds += 1;
-        let said = state.drawn.as_ref().and_then(|d| d.outcome.detection.judged.verdict.get(position).copied());
+        let said = state.drawn.as_ref().and_then(|d| d.outcome.detection.judged.verdict().get(position).copied());
         let before = model.session.plans[plan].decisions.get(row).cloned();
         // What another channel's note says stays.
         let note = before.as_ref().map(|d| d.note.clone()).filter(|n| !n.is_empty()).unwrap_or_else(|| note.clone());

@@ -100,7 +100,7 @@ pub(super) fn change(model: &Model, position: usize, ruling: Option<Ruling>) -> 
     let waiting = model.review.waiting.as_ref().filter(|(plan, r, _)| (*plan, *r) == (model.shown, row));
     let waits = || waiting.map(|(_, _, note)| note.clone()).unwrap_or_default();
     let note = before.as_ref().map_or_else(waits, |d| d.note.clone());
-    let said = model.state().drawn.as_ref().and_then(|d| d.outcome.detection.judged.verdict.get(position).copied());
+    let said = model.state().drawn.as_ref().and_then(|d| d.outcome.detection.judged.verdict().get(position).copied());
     let after = ruling.map(|ruling| Decision { ruling, note, said });
     (before != after).then_some(Change { row, before, after })
 }

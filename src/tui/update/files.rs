@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::super::files::Task;
 use super::super::message::{Effect, OutputKind, Written};
 use super::super::model::{Dialog, Model, Overlay, Tone};
-use super::super::plot::Flags;
 use super::{dialog, queue};
 use crate::error::{Error, Result};
 use crate::plot::Drawn;
@@ -102,13 +101,9 @@ fn again(what: &Written, path: &Path) -> Effect {
 }
 
 /// Takes a result in.
-pub(super) fn arrange(model: &mut Model, plan: usize, drawn: Drawn) {
-    let channel = model.channels[plan].channel;
-    let samples = Arc::clone(&model.channels[plan].samples);
-    let series = samples.series(&model.track.channels[channel], &model.track.time);
-    let flags = Flags::new(&drawn.flags(&series));
+pub(super) fn arrange(model: &mut Model, plan: usize, mut drawn: Drawn) {
     let state = &mut model.channels[plan];
-    state.flags = flags;
+    state.flags = std::mem::take(&mut drawn.arranged);
     state.results += 1;
     state.drawn = Some(Arc::new(drawn));
     state.stale = false;

@@ -38,7 +38,7 @@ pub(in crate::tui) fn mark_at(model: &Model, position: usize) -> Option<Mark> {
     let decision = model.plan().decisions.get(row);
     let (ruling, said) = (decision.map(|d| d.ruling), decision.and_then(|d| d.said));
     let drawn = model.state().drawn.as_ref()?;
-    let verdict = drawn.outcome.detection.judged.verdict.get(position).copied()?;
+    let verdict = drawn.outcome.detection.judged.verdict().get(position).copied()?;
     let mark = Mark { position: u32::try_from(position).ok()?, verdict, ruling, said };
     state(&mark).map(|_| mark)
 }

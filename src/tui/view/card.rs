@@ -137,12 +137,12 @@ fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Line<
     item("raw", short(series.y[i]));
     if let Some(drawn) = &model.state().drawn {
         let judged = &drawn.outcome.detection.judged;
-        match judged.expected.get(i) {
+        match judged.expected().get(i) {
             Some(p) if p.is_finite() => item(if narrow { "exp" } else { "expected" }, short(*p)),
             _ => item("expected", "none".into()),
         }
-        if let Some(h) = judged.tolerance.get(i).filter(|h| **h > 0.0) {
-            item(if model.glyphs == Glyphs::Unicode { "±" } else { "+-" }, short(*h));
+        if let Some(h) = judged.tolerance(i).filter(|h| *h > 0.0) {
+            item(if model.glyphs == Glyphs::Unicode { "±" } else { "+-" }, short(h));
         }
         if let Some(ratio) = drawn.ratio(series, i) {
             item("ratio", ratio_text(ratio));
@@ -156,9 +156,9 @@ fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>, nar
     let theme = &model.theme;
     let Some(drawn) = &model.state().drawn else { return Line::default() };
     let judged = &drawn.outcome.detection.judged;
-    let verdict = judged.verdict.get(i).copied().unwrap_or(Verdict::Missing);
+    let verdict = judged.verdict().get(i).copied().unwrap_or(Verdict::Missing);
     let mut text = format!("  {} says {}", drawn.outcome.detection.setup.method.about().id, verdict.word());
-    if let Some(d) = judged.directions.get(i) {
+    if let Some(d) = judged.directions().get(i) {
         let (forth, back) = if narrow { ("fwd", "bwd") } else { ("forward", "backward") };
         let both = [(forth, d.forward), (back, d.backward)];
         let words: Vec<String> = if d.forward == d.backward {
@@ -222,7 +222,7 @@ fn remarks(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) ->
         spans.push(Span::styled(format!(" decided by the analyst  {note}"), theme.dim));
     }
     if let Some(drawn) = &model.state().drawn {
-        let restarts = &drawn.outcome.detection.judged.restarts;
+        let restarts = drawn.outcome.detection.judged.restarts();
         if restarts.iter().any(|r| r.at == i) {
             let text = " the model was lost and started again here: a change of the trajectory, or a long patch";
             spans.push(Span::styled(text, theme.warning));

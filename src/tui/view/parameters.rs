@@ -136,7 +136,7 @@ fn blocks(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
     }
     let mut warnings = setup.method.warnings(&setup.settings);
     if let Some(drawn) = model.state().drawn.as_ref().filter(|_| !model.state().stale) {
-        warnings.extend(drawn.outcome.detection.judged.warnings.iter().cloned());
+        warnings.extend(drawn.outcome.detection.judged.warnings().iter().cloned());
     }
     blocks.extend(warnings.iter().map(|warning| block(warning, true)));
     blocks.extend(drawn.map(|drawn| counts(drawn, width)));
@@ -194,7 +194,7 @@ fn counts(drawn: &Drawn, width: usize) -> Vec<(String, bool)> {
     let n = drawn.outcome.counts;
     let mut lines = vec![format!("isolated {}, patches {}", n.isolated, n.patches)];
     let mut rest = vec![format!("repaired {}, removed {}", n.repaired, n.removed)];
-    let restarts = drawn.outcome.detection.judged.restarts.len();
+    let restarts = drawn.outcome.detection.judged.restarts().len();
     for (count, word) in
         [(n.suspects, "suspect"), (n.unchecked, "unchecked"), (n.filled, "filled"), (restarts, "restarts")]
     {
