@@ -3,6 +3,10 @@
 //! Detection and repair are separate choices. Adding a repair: a row in [`REPAIRS`] and, where it interpolates, a
 //! file `repair/your_repair.rs`.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
 use crate::error::{Error, Result, nearest};
 use crate::param::{Kind, Param, Settings, Value, always};
 
@@ -192,26 +196,37 @@ pub struct Damage<'a> {
 /// `max_fill` samples, and those for which the repair has no value at one of their samples, are removed.
 #[must_use]
 pub fn repair(damage: &Damage<'_>, settings: &Settings) -> Vec<f64> {
+    /// Runs that one piece of parallel work has at least.
+    const PIECE: usize = 64;
     let limit = fill_limit(settings);
+    let short = || runs(damage.outliers).filter(|run| run.len() <= limit);
     let mut values = vec![f64::NAN; damage.outliers.len()];
-    let mut accepted = None;
-    for run in runs(damage.outliers) {
-        if run.len() > limit {
-            continue;
+    let mut put_in = |run: Range<usize>, found: &[f64]| {
+        if found.iter().all(|v| v.is_finite()) {
+            values[run].copy_from_slice(found);
         }
-        let found = match chosen(settings).way {
-            Way::Remove => None,
-            Way::Own => Some(damage.own[run.clone()].to_vec()),
-            Way::Expected => Some(damage.expected[run.clone()].to_vec()),
-            Way::Interpolate(interpolate) => {
-                let accepted = accepted.get_or_insert_with(|| Accepted::of(damage));
+    };
+    match chosen(settings).way {
+        Way::Remove => {}
+        Way::Own => short().for_each(|run| put_in(run.clone(), &damage.own[run])),
+        Way::Expected => short().for_each(|run| put_in(run.clone(), &damage.expected[run])),
+        Way::Interpolate(interpolate) => {
+            let short: Vec<Range<usize>> = short().collect();
+            if short.is_empty() {
+                return values;
+            }
+            let accepted = Accepted::of(damage);
+            let found = short.par_iter().with_min_len(PIECE).map(|run| {
                 let at: Vec<f64> = damage.outliers[run.clone()].iter().map(|&i| damage.t[i]).collect();
                 // Before the run lie its first position less the outliers that precede it.
                 accepted.around(damage.outliers[run.start] - run.start).and_then(|a| interpolate(&a, &at, settings))
+            });
+            let found: Vec<Option<Vec<f64>>> = found.collect();
+            for (run, found) in short.into_iter().zip(found) {
+                if let Some(found) = found {
+                    put_in(run, &found);
+                }
             }
-        };
-        if let Some(found) = found.filter(|f| f.iter().all(|v| v.is_finite())) {
-            values[run].copy_from_slice(&found);
         }
     }
     values
@@ -226,7 +241,7 @@ fn fill_limit(settings: &Settings) -> usize {
 }
 
 /// Runs of neighbours among ascending positions, as ranges of indices into them.
-pub fn runs(positions: &[usize]) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
+pub fn runs(positions: &[usize]) -> impl Iterator<Item = Range<usize>> + '_ {
     let mut start = 0;
     std::iter::from_fn(move || {
         if start >= positions.len() {
