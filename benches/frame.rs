@@ -121,8 +121,9 @@ fn of_size(criterion: &mut Criterion, name: &str, n: usize, share_flagged: f64) 
 
 fn frames(criterion: &mut Criterion) {
     of_size(criterion, "1e6, 0.1 % flagged", 1_000_000, 0.001);
-    of_size(criterion, "1e6, 5 % flagged", 1_000_000, 0.05);
-    of_size(criterion, "1e7, 5 % flagged", 10_000_000, 0.05);
+    for (name, n) in [("1e5", 100_000), ("1e6", 1_000_000), ("1e7", 10_000_000)] {
+        of_size(criterion, &format!("{name}, 5 % flagged"), n, 0.05);
+    }
 }
 
 criterion_group! {

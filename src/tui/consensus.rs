@@ -108,7 +108,7 @@ impl Poll {
             progress(done);
             let id = setup.method.about().id;
             match detect(&self.track, channel, &self.samples, setup, None, stop) {
-                Ok(detection) => ballot.add(id, &detection.judged.verdict),
+                Ok(detection) => ballot.add(id, detection.judged.verdict()),
                 Err(Error::Stopped) => return Err(Error::Stopped),
                 Err(e) => left_out.push((id, e.to_string().replace("\n  ", "; "))),
             }
