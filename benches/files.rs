@@ -1,6 +1,8 @@
 //! Cost of the way from a file to a screen and back to a file: loading, cleaning, the first frame, and one step of the
 //! threshold, from the key to the drawn frame. Two columns, 1e5 to 1e7 rows.
 
+#![expect(clippy::print_stdout, reason = "one process tells another its peak memory")]
+
 use std::fmt::Write as _;
 use std::hint::black_box;
 use std::io::Write as _;

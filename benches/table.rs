@@ -1,6 +1,8 @@
 //! The table of the README: what the other benchmarks of this run measured, beside the budgets. It runs last:
 //! `WILDPOINT_UPDATE=1 cargo bench` measures everything and writes the table, `cargo bench` shows it.
 
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a table is shown")]
+
 use std::path::{Path, PathBuf};
 
 /// A job with its budget.

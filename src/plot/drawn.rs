@@ -75,9 +75,9 @@ impl Drawn {
             arranged: Flags::default(),
             outcome: Arc::new(outcome),
         };
-        let judged = |d: &Self| &d.outcome.detection.judged;
-        let k = |d: &Self| judged(d).scales().map(|(k, _)| k.to_bits());
-        let scored = previous.filter(|p| judged(p).shares_scores(judged(&drawn)));
+        let k = |d: &Self| d.outcome.detection.judged.scales().map(|(k, _)| k.to_bits());
+        let judged = &drawn.outcome.detection.judged;
+        let scored = previous.filter(|p| p.outcome.detection.judged.shares_scores(judged));
         let same_band = scored.filter(|p| k(p) == k(&drawn));
         let in_scales = |d: &Self| d.in_scales() && k(d).is_some();
         let same_residuals = scored.filter(|p| (in_scales(p) && in_scales(&drawn)) || k(p) == k(&drawn));
