@@ -174,17 +174,23 @@ pub fn settle(
     Ok(Outcome { detection, marks, outliers, fixes, runs, fills, counts })
 }
 
+/// So many verdicts at a time are counted in a byte each, which is as quick as reading them.
+const STRIDE: usize = 64;
+
+/// How many of at most 255 verdicts are wanted.
+fn holds(verdict: &[Verdict], wanted: impl Fn(Verdict) -> bool) -> u8 {
+    verdict.iter().map(|v| u8::from(wanted(*v))).fold(0, u8::wrapping_add)
+}
+
 fn marks(verdict: &[Verdict], series: &Series<'_>, decisions: &Decisions) -> Vec<Mark> {
-    /// Most samples are normal and nobody decided on them: so many are passed over at a time.
-    const STRIDE: usize = 64;
+    let flags = |v: Verdict| (v == Verdict::Outlier) | (v == Verdict::Suspect);
     let decided = |(row, d): (u32, &Decision)| series.position(row as usize).map(|p| (p, d.ruling, d.said));
     let mut decided = decisions.iter().filter_map(decided).peekable();
     let mut marks = Vec::new();
     for (chunk, part) in verdict.chunks(STRIDE).enumerate() {
         let first = chunk * STRIDE;
-        let flags = |v: Verdict| matches!(v, Verdict::Outlier | Verdict::Suspect);
-        let flagged = part.iter().fold(false, |any, v| any | flags(*v));
-        if !flagged && decided.peek().is_none_or(|d| d.0 >= first + part.len()) {
+        // Most samples are normal and nobody decided on them.
+        if holds(part, flags) == 0 && decided.peek().is_none_or(|d| d.0 >= first + part.len()) {
             continue;
         }
         #[expect(clippy::cast_possible_truncation, reason = "the loader refuses files of 2^32 rows and more")]
@@ -201,6 +207,8 @@ fn marks(verdict: &[Verdict], series: &Series<'_>, decisions: &Decisions) -> Vec
 
 fn count(rows: usize, detection: &Detection, marks: &[Mark], fixes: &[f64], runs: &[Run], filled: usize) -> Counts {
     let verdict = detection.judged.verdict();
+    let unchecked = |part: &[Verdict]| usize::from(holds(part, |v| v == Verdict::Unchecked));
+    let unchecked: usize = verdict.chunks(STRIDE).map(unchecked).sum();
     let decided_unchecked = marks.iter().filter(|m| m.verdict == Verdict::Unchecked).count();
     let removed = fixes.iter().filter(|v| v.is_nan()).count();
     let isolated = runs.iter().filter(|r| r.length == 1).count();
@@ -212,7 +220,7 @@ fn count(rows: usize, detection: &Detection, marks: &[Mark], fixes: &[f64], runs
         isolated,
         patches: runs.len() - isolated,
         suspects: marks.iter().filter(|m| m.effective() == Verdict::Suspect).count(),
-        unchecked: verdict.iter().filter(|v| **v == Verdict::Unchecked).count() - decided_unchecked,
+        unchecked: unchecked - decided_unchecked,
         repaired: fixes.len() - removed,
         removed,
         filled,
