@@ -138,7 +138,7 @@ impl Query {
             Self::State(wanted) => marked(&|p| mark_at(model, p).as_ref().and_then(state) == Some(*wanted)),
             Self::Conflict => marked(&|p| mark_at(model, p).is_some_and(|m| m.conflict())),
             Self::Verdict(wanted) => {
-                let verdict = &drawn?.outcome.detection.judged.verdict;
+                let verdict = drawn?.outcome.detection.judged.verdict();
                 around(&|i| verdict.get(i) == Some(wanted))
             }
             Self::Note(words) => {
