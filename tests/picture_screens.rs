@@ -98,7 +98,7 @@ fn sides(bench: &Bench) -> [usize; 3] {
 /// Positions that the method flags now.
 fn flagged(bench: &Bench) -> Vec<u32> {
     let drawn = bench.0.state().drawn.as_ref().unwrap();
-    let verdicts = drawn.outcome.detection.judged.verdict.iter();
+    let verdicts = drawn.outcome.detection.judged.verdict().iter();
     (0..).zip(verdicts).filter(|(_, v)| **v == wildpoint::method::Verdict::Outlier).map(|(i, _)| i).collect()
 }
 

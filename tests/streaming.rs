@@ -1,5 +1,7 @@
 //! A file that is read piece by piece gives the track, or the error, that the same bytes give in memory.
 
+#![expect(clippy::expect_used, reason = "a failed expectation is a failed test")]
+
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::sync::Arc;
