@@ -154,7 +154,7 @@ fn no_flags(model: &Model) -> Option<String> {
     let drawn = model.state().drawn.as_ref().filter(|d| d.outcome.counts.flagged == 0)?;
     let setup = &model.plan().setup;
     let of_setup = setup.method.warnings(&setup.settings).into_iter().next();
-    of_setup.or_else(|| drawn.outcome.detection.judged.warnings.first().cloned())
+    of_setup.or_else(|| drawn.outcome.detection.judged.warnings().first().cloned())
 }
 
 /// Words of the program. The style ends with them: styled blanks up to the edge would go over the wire each time.

@@ -95,7 +95,7 @@ impl StepsJob {
             let there = judge.detection(stop)?;
             stop.check()?;
             let rows = |from: &Detection, to: &Detection| {
-                let pairs = from.judged.verdict.iter().zip(&to.judged.verdict).zip(&self.rows);
+                let pairs = from.judged.verdict().iter().zip(to.judged.verdict()).zip(&self.rows);
                 let new = pairs.filter(|((a, b), _)| **a != Verdict::Outlier && **b == Verdict::Outlier);
                 new.map(|(_, row)| *row).collect::<Vec<u32>>()
             };

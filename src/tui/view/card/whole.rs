@@ -85,8 +85,8 @@ fn judgement(model: &Model, drawn: &Drawn, series: &Series<'_>, i: usize, facts:
     let theme = &model.theme;
     let judged = &drawn.outcome.detection.judged;
     let number = |values: &[f64]| values.get(i).copied().filter(|v| v.is_finite()).map_or("none".into(), short);
-    facts.push(("expected", number(&judged.expected), theme.text));
-    let tolerance = judged.tolerance.get(i).copied().filter(|h| *h > 0.0).map_or("none".into(), short);
+    facts.push(("expected", number(judged.expected()), theme.text));
+    let tolerance = judged.tolerance(i).filter(|h| *h > 0.0).map_or("none".into(), short);
     facts.push(("tolerance", tolerance, theme.text));
     if let Some(ratio) = drawn.ratio(series, i) {
         let mut text = format!("{} tolerances", ratio_text(ratio));
@@ -96,10 +96,10 @@ fn judgement(model: &Model, drawn: &Drawn, series: &Series<'_>, i: usize, facts:
         }
         facts.push(("ratio", text, theme.text));
     }
-    let verdict = judged.verdict.get(i).copied().unwrap_or(Verdict::Missing);
+    let verdict = judged.verdict().get(i).copied().unwrap_or(Verdict::Missing);
     let id = drawn.outcome.detection.setup.method.about().id;
     facts.push(("method", format!("{id} says {}", verdict.word()), theme.text));
-    if let Some(d) = judged.directions.get(i) {
+    if let Some(d) = judged.directions().get(i) {
         for (name, direction) in [("forward", d.forward), ("backward", d.backward)] {
             facts.push((name, direction.map_or("not judged".into(), |d| Direction::word(d).to_owned()), theme.text));
         }
@@ -113,7 +113,7 @@ fn judgement(model: &Model, drawn: &Drawn, series: &Series<'_>, i: usize, facts:
         None => "none".into(),
     };
     facts.push(("run", run, theme.text));
-    if judged.restarts.iter().any(|r| r.at == i) {
+    if judged.restarts().iter().any(|r| r.at == i) {
         let text = "the model was lost here: a change of the trajectory, or a long patch";
         facts.push(("restart", text.into(), theme.warning));
     }
@@ -149,7 +149,7 @@ fn table(model: &Model, series: &Series<'_>, i: usize, around: usize) -> Vec<Lin
         let lost = if k > from { series.lost_before(k) } else { 0 };
         let lost = if lost > 0 { format!("  {lost} lost before") } else { String::new() };
         let here = if k == i { '>' } else { ' ' };
-        let expected = drawn.and_then(|d| d.outcome.detection.judged.expected.get(k).copied());
+        let expected = drawn.and_then(|d| d.outcome.detection.judged.expected().get(k).copied());
         let expected = expected.filter(|e| e.is_finite()).map_or_else(|| "-".into(), short);
         let ratio = drawn.and_then(|d| d.ratio(series, k)).map_or_else(|| "-".into(), ratio_text);
         let time = model.track.time.label(series.t[k], 2);
