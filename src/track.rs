@@ -14,6 +14,7 @@ mod cells;
 mod checks;
 mod chunk;
 mod head;
+mod inert;
 mod load;
 mod names;
 mod notes;
@@ -30,6 +31,7 @@ mod series;
 mod shape;
 mod sniff;
 mod stamp;
+mod targets;
 mod text;
 mod timing;
 mod tokens;
@@ -37,6 +39,7 @@ mod widen;
 
 pub use cells::Cells;
 pub use checks::RowChecks;
+pub use inert::inert;
 pub use load::{LoadOptions, load};
 pub use number::number_text;
 pub(crate) use number::{Cell, Reading};
@@ -48,6 +51,7 @@ pub use printable::printable;
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use series::{Samples, Series, lost_samples};
+pub use targets::Target;
 pub(crate) use tokens::split;
 pub use widen::{NewColumn, widen};
 
@@ -163,6 +167,8 @@ pub enum ColumnKind {
     Number,
     /// 0 and 1, where 1 marks a real outlier.
     Truth,
+    /// The id of the track that the row belongs to.
+    Track,
     /// Something else, kept in the output and otherwise left alone.
     Text,
     /// No cell holds a value.
@@ -178,7 +184,9 @@ pub struct Channel {
     pub unit: String,
     /// Index of its column in [`Track::columns`].
     pub column: usize,
-    /// One value per row; NaN where there is none.
+    /// Its target, in a table of several tracks; none where all rows are one track.
+    pub target: Option<Target>,
+    /// One value per row (of its target, where it has one); NaN where there is none.
     pub values: Vec<f64>,
 }
 
@@ -196,8 +204,8 @@ pub struct TimeAxis {
     /// The time that is 0 in [`TimeAxis::seconds`], in nanoseconds: since 1970 for calendar formats, since the
     /// file's own zero for others.
     pub origin_ns: i128,
-    /// One time per row in seconds after the origin, strictly increasing; NaN where the row has no usable time
-    /// (none, unreadable, repeated, or before an earlier row).
+    /// One time per row in seconds after the origin, strictly increasing (in a table of several tracks: over the rows
+    /// of each); NaN where the row has no usable time (none, unreadable, repeated, or before an earlier row).
     pub seconds: Vec<f64>,
 }
 

@@ -55,10 +55,31 @@ impl Judged {
         }
     }
 
-    /// Verdicts from expected values and scales for a multiplier `k`: tolerance `k * scale`; a sample without an
-    /// expected value is unchecked, one with a zero scale normal.
+    /// Without infinities: where values near the largest double made an expected value or a tolerance overflow, there is
+    /// none, and the sample is unchecked, for nothing was found out about it. Nor is a sample an outlier without both.
     #[must_use]
-    pub fn gated(y: &[f64], expected: Vec<f64>, scale: Vec<f64>, k: f64) -> Self {
+    pub fn bounded(mut self) -> Self {
+        for ((verdict, p), h) in self.verdict.iter_mut().zip(&mut self.expected).zip(&mut self.tolerance) {
+            if p.is_finite() && h.is_finite() {
+                continue;
+            }
+            if *verdict == Verdict::Outlier || p.is_infinite() || h.is_infinite() {
+                *verdict = Verdict::Unchecked;
+            }
+            for value in [p, h] {
+                if value.is_infinite() {
+                    *value = f64::NAN;
+                }
+            }
+        }
+        self
+    }
+
+    /// Verdicts from expected values and scales for a multiplier `k`: tolerance `k * scale`; a sample without an
+    /// expected value or with a tolerance that overflows is unchecked, one with a zero scale normal.
+    #[must_use]
+    pub fn gated(y: &[f64], mut expected: Vec<f64>, scale: Vec<f64>, k: f64) -> Self {
+        expected.iter_mut().filter(|p| p.is_infinite()).for_each(|p| *p = f64::NAN);
         let mut judged = Self { expected, scale, ..Self::default() };
         judged.gate(y, k);
         judged
@@ -68,7 +89,8 @@ impl Judged {
     pub fn gate(&mut self, y: &[f64], k: f64) {
         let said = |((&p, &scale), &y): ((&f64, &f64), &f64)| {
             let tolerance = k * scale;
-            let verdict = if p.is_nan() {
+            let tolerance = if tolerance.is_infinite() { f64::NAN } else { tolerance };
+            let verdict = if p.is_nan() || tolerance.is_nan() {
                 Verdict::Unchecked
             } else if reaches((y - p).abs(), tolerance) {
                 Verdict::Outlier

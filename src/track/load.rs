@@ -4,9 +4,10 @@ use std::path::Path;
 
 use super::body::{Body, Numbers, Plan, parse};
 use super::head::{Head, open_quote};
-use super::order::{Moments, Ordered, Rows, order};
+use super::order::{Moments, Ordered, Rows, order, sample_numbers};
 use super::roles::{Roles, assign};
 use super::shape::{refuse_long_form, refuse_other_formats};
+use super::targets::{self, Targets};
 use super::text::{Text, path_of, sha256, stored};
 use super::timing::{Timing, choose};
 use super::tokens::inner;
@@ -24,6 +25,8 @@ pub struct LoadOptions {
     pub time: Option<String>,
     /// The channels, by name or as `#3`. None: every numeric column that is neither time nor truth.
     pub channels: Vec<String>,
+    /// The column that tells several tracks in one table apart, by name or as `#3`. None: all rows are one track.
+    pub track: Option<String>,
     /// The truth column. Recognised: the only column of 0 and 1 with `truth` in its name.
     pub truth: Option<String>,
     /// Cells that mean "no value", besides the usual ones; numbers are compared by value.
@@ -53,7 +56,10 @@ pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
     let text = Text::of(&stored, &path, options.encoding)?;
     refuse_other_formats(text.body(), &path)?;
     let head = Head::of(&text, options, &path)?;
-    refuse_long_form(&head, &path)?;
+    let track_column = targets::column(&head, options)?;
+    if track_column.is_none() {
+        refuse_long_form(&head, &path)?;
+    }
     let by_sample = options.time.as_deref() == Some("sample") && !head.names.iter().any(|n| n == "sample");
     let timing = if by_sample { None } else { choose(&head, options, &path)? };
     let roles = assign(&head, timing.as_ref(), options)?;
@@ -65,7 +71,6 @@ pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
     }
     let columns = columns_of(&head, timing.as_ref(), &roles, &body, options)?;
     let clock = timing.as_ref().is_some_and(|t| t.format == TimeFormat::Clock);
-    let ordered = moments.map(|m| order(m, clock));
     let mut track = Track {
         source: source.clone(),
         sha256,
@@ -79,8 +84,19 @@ pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
         columns,
         notes: Vec::new(),
     };
-    if let Some(ordered) = ordered {
-        take_times(&mut track, ordered, &text)?;
+    let targets = match track_column {
+        Some(column) => Some(Targets::read(&track, &text, column, &head, &path)?),
+        None => None,
+    };
+    if let Some(targets) = &targets {
+        track.channels = targets.divide(std::mem::take(&mut track.channels), &head, options)?;
+        track.notes = targets.notes(&track);
+    }
+    let of_row = targets.as_ref().map(|t| t.of_row.as_slice());
+    match (moments, of_row) {
+        (Some(moments), _) => take_times(&mut track, order(moments, clock, of_row), &text)?,
+        (None, Some(of_row)) => track.time.seconds = sample_numbers(of_row),
+        (None, None) => {}
     }
     track.notes.extend(notes::about_shape(&track, &head));
     Ok(track)
@@ -146,6 +162,7 @@ fn columns_of(
         let numbers = roles.slots[index].map(|slot| &body.numbers[slot]);
         let kind = match numbers {
             _ if timing.is_some_and(|t| t.column == index || t.date_column == Some(index)) => ColumnKind::Time,
+            _ if roles.track == Some(index) => ColumnKind::Track,
             Some(numbers) if roles.truth == Some(index) => {
                 check_truth(name, numbers)?;
                 ColumnKind::Truth
@@ -199,7 +216,7 @@ fn channels_of(columns: &[Column], roles: &Roles, body: &mut Body, path: &Path) 
     let channel = |index: usize| {
         let values = roles.slots[index].map(|slot| std::mem::take(&mut body.numbers[slot].values)).unwrap_or_default();
         let Column { name, unit, .. } = &columns[index];
-        Channel { name: name.clone(), unit: unit.clone(), column: index, values }
+        Channel { name: name.clone(), unit: unit.clone(), column: index, target: None, values }
     };
     let channels: Vec<Channel> = wanted.into_iter().map(channel).collect();
     if channels.is_empty() {

@@ -213,6 +213,9 @@ impl<'a> Editor<'a> {
             if time.date_column == Some(column) {
                 return time.write_like(new.seconds, &self.cell(record, spans, column));
             }
+            if self.track.track_column() == Some(column) {
+                return self.cell(record, spans, column);
+            }
             let value = new.cells.iter().find(|(c, _)| *c == column).map(|(_, v)| *v);
             self.number(value).unwrap_or_else(|| self.nothing())
         };
