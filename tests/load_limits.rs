@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use wildpoint::error::Error;
 use wildpoint::session::read;
-use wildpoint::track::{Changes, LoadOptions, Source, TimeFormat, Track, load, rewrite};
+use wildpoint::track::{Changes, Delimiter, LoadOptions, Source, TimeFormat, Track, load, rewrite};
 
 fn load_with(text: &[u8], options: &LoadOptions) -> Result<Track, Error> {
     load(&Source::BuiltIn { name: "limits.csv", bytes: text.into() }, options)
@@ -74,6 +74,21 @@ fn rows_with_another_delimiter_are_counted_and_noted() {
     // Decimal commas between semicolons are no mixture; points among them are read as well.
     let track = loaded(b"time;x\n0;1,5\n1;2.5\n2;3,5\n");
     assert_eq!((track.dialect.decimal_comma, track.channels[0].values[0], track.rows), (true, 1.5, 3));
+}
+
+#[test]
+fn commas_that_part_cells_and_begin_decimals_need_quotes() {
+    let text = b"time,x\n0,\"1,5\"\n1,\"2,5\"\n2,\"3,5\"\n";
+    let comma = |quotes| LoadOptions {
+        delimiter: Some(Delimiter::Byte(b',')),
+        decimal_comma: Some(true),
+        quotes,
+        ..LoadOptions::default()
+    };
+    assert_eq!(load_with(text, &comma(None)).unwrap().channels[0].values, [1.5, 2.5, 3.5]);
+    // A repaired 2,5 would be two cells.
+    let e = load_with(b"time,x\n0,1\n1,2\n", &comma(Some(false))).unwrap_err().to_string();
+    assert!(e.contains("where there are no quotes") && e.contains("--delimiter"), "{e}");
 }
 
 #[test]

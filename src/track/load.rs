@@ -56,6 +56,7 @@ pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
     let text = Text::of(&stored, &path, options.encoding)?;
     refuse_other_formats(text.body(), &path)?;
     let head = Head::of(&text, options, &path)?;
+    refuse_torn_decimals(&head)?;
     let track_column = targets::column(&head, options)?;
     if track_column.is_none() {
         refuse_long_form(&head, &path)?;
@@ -84,15 +85,11 @@ pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
         columns,
         notes: Vec::new(),
     };
-    let targets = match track_column {
-        Some(column) => Some(Targets::read(&track, &text, column, &head, &path)?),
+    let of_row = match track_column {
+        Some(column) => Some(divided(&mut track, column, (&text, &head), options)?),
         None => None,
     };
-    if let Some(targets) = &targets {
-        track.channels = targets.divide(std::mem::take(&mut track.channels), &head, options)?;
-        track.notes = targets.notes(&track);
-    }
-    let of_row = targets.as_ref().map(|t| t.of_row.as_slice());
+    let of_row = of_row.as_deref();
     match (moments, of_row) {
         (Some(moments), _) => take_times(&mut track, order(moments, clock, of_row), &text)?,
         (None, Some(of_row)) => track.time.seconds = sample_numbers(of_row),
@@ -100,6 +97,31 @@ pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
     }
     track.notes.extend(notes::about_shape(&track, &head));
     Ok(track)
+}
+
+/// A number that is written with a decimal comma between commas would be two cells.
+fn refuse_torn_decimals(head: &Head) -> Result<()> {
+    let commas = head.layout.delimiter == Delimiter::Byte(b',') && head.reading.decimal_comma;
+    if commas && head.layout.quote.is_none() {
+        return Err(Error::usage(
+            "a comma cannot both part cells and begin decimals where there are no quotes",
+            "leave one of --decimal-comma and --no-quotes out, or name another --delimiter",
+        ));
+    }
+    Ok(())
+}
+
+/// Divides the channels among the targets that `column` tells apart; gives the target of each row.
+fn divided(
+    track: &mut Track,
+    column: usize,
+    (text, head): (&Text<'_>, &Head),
+    options: &LoadOptions,
+) -> Result<Vec<u32>> {
+    let targets = Targets::read(track, text, column, head, &path_of(&track.source))?;
+    track.channels = targets.divide(std::mem::take(&mut track.channels), head, options)?;
+    track.notes = targets.notes(track);
+    Ok(targets.of_row)
 }
 
 /// The rows, and the moments of the time column where there is one.
