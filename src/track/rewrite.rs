@@ -243,7 +243,7 @@ pub(super) fn patched(record: &[u8], spans: &[Span], layout: Layout, edits: &[(u
                 }
                 count += 1;
             }
-            line.extend_from_slice(text.as_bytes());
+            put(&mut line, text, layout, true);
             continue;
         };
         let within = inner(span.of(record), layout.quote);
@@ -251,17 +251,21 @@ pub(super) fn patched(record: &[u8], spans: &[Span], layout: Layout, edits: &[(u
         line.extend_from_slice(&record[done..start]);
         align(&mut line, end - start, text.len());
         let bare = span.of(record).trim_ascii().len() == end - start;
-        match (layout.delimiter, layout.quote) {
-            // A decimal comma between commas.
-            (Delimiter::Byte(delimiter), Some(quote)) if bare && text.as_bytes().contains(&delimiter) => {
-                line.extend([&[quote], text.as_bytes(), &[quote]].concat());
-            }
-            _ => line.extend_from_slice(text.as_bytes()),
-        }
+        put(&mut line, text, layout, bare);
         done = end;
     }
     line.extend_from_slice(&record[done..]);
     line
+}
+
+/// Adds the text of a cell: in quotes where it has none yet and a decimal comma would part it.
+fn put(line: &mut Vec<u8>, text: &str, layout: Layout, bare: bool) {
+    match (layout.delimiter, layout.quote) {
+        (Delimiter::Byte(delimiter), Some(quote)) if bare && text.as_bytes().contains(&delimiter) => {
+            line.extend([&[quote], text.as_bytes(), &[quote]].concat());
+        }
+        _ => line.extend_from_slice(text.as_bytes()),
+    }
 }
 
 /// Takes or adds blanks before a cell whose text changes its length, where two or more stand there: such cells are
@@ -363,12 +367,12 @@ mod tests {
 
     #[test]
     fn a_decimal_comma_between_commas_is_quoted() {
-        let source = Source::BuiltIn { name: "wildpoint:test", bytes: Arc::from(&b"t,x\n0,\"1,5\"\n1,2\n"[..]) };
+        let source = Source::BuiltIn { name: "wildpoint:test", bytes: Arc::from(&b"t,x\n0,\"1,5\"\n1,2\n2\n"[..]) };
         let track = load(&source, &LoadOptions { decimal_comma: Some(true), ..LoadOptions::default() }).unwrap();
         let cell = |row| CellChange { row, column: 1, value: Some(2.5) };
         let mut out = Vec::new();
-        rewrite(&track, &Changes { cells: vec![cell(0), cell(1)], rows: Vec::new() }, &mut out).unwrap();
-        assert_eq!(String::from_utf8(out).unwrap(), "t,x\n0,\"2,5\"\n1,\"2,5\"\n");
+        rewrite(&track, &Changes { cells: vec![cell(0), cell(1), cell(2)], rows: Vec::new() }, &mut out).unwrap();
+        assert_eq!(String::from_utf8(out).unwrap(), "t,x\n0,\"2,5\"\n1,\"2,5\"\n2,\"2,5\"\n");
     }
 
     #[test]

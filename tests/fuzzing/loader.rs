@@ -62,7 +62,7 @@ fn changed(track: &wildpoint::track::Track, options: &LoadOptions) {
         ..options.clone()
     };
     let Ok(again) = load(&source, &options) else { return };
-    if again.rows != track.rows || again.dialect.preamble != track.dialect.preamble {
+    if again.rows != track.rows || again.dialect != track.dialect {
         return;
     }
     for (i, (a, b)) in again.channels[0].values.iter().zip(&channel.values).enumerate() {
