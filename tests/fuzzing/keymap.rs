@@ -4,13 +4,14 @@
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use wildpoint::tui::action::Panel;
 use wildpoint::tui::input::Normaliser;
-use wildpoint::tui::keys::{Meaning, meaning};
+use wildpoint::tui::keys::{Keys, Meaning};
 
 use super::bytes::Bytes;
 
 pub(super) fn body(data: &[u8]) {
     let mut bytes = Bytes(data);
     let panel = Panel::ALL[bytes.below(Panel::ALL.len())];
+    let keys = Keys::default();
     let mut normaliser = Normaliser::default();
     let mut prefix = None;
     let (mut fed, mut given) = (0, 0);
@@ -24,7 +25,7 @@ pub(super) fn body(data: &[u8]) {
         };
         for key in meant {
             given += 1;
-            prefix = match meaning(key, prefix, panel) {
+            prefix = match keys.meaning(key, prefix, panel) {
                 Meaning::Prefix(c) => {
                     assert!(prefix.is_none(), "a prefix of a prefix");
                     Some(c)

@@ -10,6 +10,7 @@
 )]
 
 mod bytes;
+mod config;
 mod journal;
 mod keymap;
 mod loader;
@@ -26,6 +27,7 @@ pub(crate) static TARGETS: &[(&str, Body)] = &[
     ("loader", loader::body),
     ("session", session::body),
     ("keymap", keymap::body),
+    ("config", config::body),
     ("times", times::body),
     ("sanitiser", sanitiser::body),
     ("methods", methods::body),
