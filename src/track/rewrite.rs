@@ -248,9 +248,15 @@ pub(super) fn patched(record: &[u8], spans: &[Span], layout: Layout, edits: &[(u
         };
         let within = inner(span.of(record), layout.quote);
         let (start, end) = (span.start as usize + within.start, span.start as usize + within.end);
+        let at = line.len() + span.start as usize - done;
         line.extend_from_slice(&record[done..start]);
         align(&mut line, end - start, text.len());
         let bare = span.of(record).trim_ascii().len() == end - start;
+        // A quote is one at the start of a cell or after blanks, not after a stray carriage return.
+        let padding = &span.of(record)[..within.start];
+        if bare && padding.iter().any(|b| !matches!(b, b' ' | b'\t')) && wants_quotes(text, layout).is_some() {
+            line.truncate(at);
+        }
         put(&mut line, text, layout, bare);
         done = end;
     }
@@ -260,12 +266,17 @@ pub(super) fn patched(record: &[u8], spans: &[Span], layout: Layout, edits: &[(u
 
 /// Adds the text of a cell: in quotes where it has none yet and a decimal comma would part it.
 fn put(line: &mut Vec<u8>, text: &str, layout: Layout, bare: bool) {
-    match (layout.delimiter, layout.quote) {
-        (Delimiter::Byte(delimiter), Some(quote)) if bare && text.as_bytes().contains(&delimiter) => {
-            line.extend([&[quote], text.as_bytes(), &[quote]].concat());
-        }
-        _ => line.extend_from_slice(text.as_bytes()),
+    match wants_quotes(text, layout).filter(|_| bare) {
+        Some(quote) => line.extend([&[quote], text.as_bytes(), &[quote]].concat()),
+        None => line.extend_from_slice(text.as_bytes()),
     }
+}
+
+/// The quote that a text needs to be one cell, and does not have.
+fn wants_quotes(text: &str, layout: Layout) -> Option<u8> {
+    let Delimiter::Byte(delimiter) = layout.delimiter else { return None };
+    let text = text.as_bytes();
+    layout.quote.filter(|quote| text.contains(&delimiter) && text.first() != Some(quote))
 }
 
 /// Takes or adds blanks before a cell whose text changes its length, where two or more stand there: such cells are
