@@ -92,6 +92,16 @@ fn commas_that_part_cells_and_begin_decimals_need_quotes() {
 }
 
 #[test]
+fn a_comment_after_blanks_is_a_comment_in_every_pass() {
+    let track = loaded(b"id,x\na,1\n  # b,2\nc,3\n");
+    assert_eq!((track.rows, &track.channels[0].values[..]), (2, &[1.0, 3.0][..]));
+    let cells = vec![wildpoint::track::CellChange { row: 1, column: 1, value: Some(5.0) }];
+    let mut out = Vec::new();
+    rewrite(&track, &Changes { cells, rows: Vec::new() }, &mut out).unwrap();
+    assert_eq!(out, b"id,x\na,1\n  # b,2\nc,5\n");
+}
+
+#[test]
 fn a_leap_second_is_a_row_of_its_own_and_the_second_after_it_the_same_time() {
     let text =
         b"time,x\n2016-12-31T23:59:59Z,1\n2016-12-31T23:59:60Z,2\n2017-01-01T00:00:00Z,3\n2017-01-01T00:00:01Z,4\n";

@@ -279,8 +279,7 @@ fn wants_quotes(text: &str, layout: Layout) -> Option<u8> {
     layout.quote.filter(|quote| text.contains(&delimiter) && text.first() != Some(quote))
 }
 
-/// Takes or adds blanks before a cell whose text changes its length, where two or more stand there: such cells are
-/// aligned to the right.
+/// Keeps cells aligned to the right: takes or adds blanks before one whose length changes, where two or more are.
 fn align(line: &mut Vec<u8>, old: usize, new: usize) {
     let blanks = line.iter().rev().take_while(|b| **b == b' ').count();
     if blanks < 2 {
