@@ -8,7 +8,7 @@ use clap::CommandFactory;
 use crate::cli::{Cli, Command, Load, OutputArgs};
 use crate::error::{Error, Result};
 use crate::report::Inspection;
-use crate::track::{Source, Track, load};
+use crate::track::{Channel, Source, Track, load};
 
 mod clean;
 mod compare;
@@ -115,8 +115,11 @@ fn one_channel(file: &Path, options: &Load, rate: Option<&str>) -> Result<(Track
         return Err(Error::usage("several channels were named", "name one with --channel"));
     }
     let track = load(&Source::File(file.to_path_buf()), &options.options(rate))?;
-    let wanted = |name: &str| options.channel.first().map_or(Some(name) != rate, |c| c == name);
-    let Some(index) = track.channels.iter().position(|c| wanted(&c.name)) else {
+    let wanted = |c: &Channel| match options.channel.first() {
+        Some(name) => track.means(name, c),
+        None => !rate.is_some_and(|rate| track.means(rate, c)),
+    };
+    let Some(index) = track.channels.iter().position(wanted) else {
         return Err(Error::input(file, "no column of numbers but the rate", "name another --channel or --rate"));
     };
     let others = track.channels.len() - 1;

@@ -171,6 +171,10 @@ pub struct Load {
     /// Channel to work on; repeatable [default: every numeric column that is neither time nor truth].
     #[arg(long, value_name = "COLUMN")]
     pub channel: Vec<String>,
+    /// Column of an id (satellite, aircraft, station) that tells several tracks in one table apart: each is judged by
+    /// itself, with times of its own. Its channels are called CHANNEL@ID; --channel takes that, or CHANNEL for all.
+    #[arg(long, value_name = "COLUMN")]
+    pub track: Option<String>,
     /// Column of 0 and 1 that marks the real outliers.
     #[arg(long, value_name = "COLUMN")]
     pub truth: Option<String>,
@@ -308,6 +312,7 @@ impl Load {
             time: self.time.clone(),
             channels,
             truth: self.truth.clone(),
+            track: self.track.clone(),
             missing: self.missing.clone(),
             delimiter: self.delimiter.map(|d| match d {
                 DelimiterArg::Comma => Delimiter::Byte(b','),

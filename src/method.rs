@@ -110,7 +110,7 @@ pub fn judge_segments(
 ) -> Result<Judged, Stopped> {
     let judge = |(range, scales): (&Range<usize>, &noise::Scales)| {
         stop.check()?;
-        method.judge(&Segment::of(series, range, *scales, rate), settings, stop)
+        method.judge(&Segment::of(series, range, *scales, rate), settings, stop).map(Judged::bounded)
     };
     // Segments are judged in any order and put together in theirs: the number of threads changes nothing.
     let parts: Vec<Judged> = ranges.par_iter().zip(scales).map(judge).collect::<Result<_, _>>()?;

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::error::{Error, Result};
 use crate::method::Verdict;
 use crate::session::{Analysed, Outcome, Session};
-use crate::track::{Cells, Series, Track, for_each_row};
+use crate::track::{Cells, Series, Track, for_each_row, inert};
 
 mod diagnostics;
 mod flags;
@@ -49,9 +49,23 @@ struct Walk<'a> {
     outcome: &'a Outcome,
     plan: usize,
     next: usize,
+    /// The rows of its target that are still to come, in a table of several tracks.
+    own: Option<&'a [u32]>,
 }
 
 impl Walk<'_> {
+    /// True when `row` is one of the channel's own; rows must be asked for in ascending order, each once.
+    fn owns(&mut self, row: usize) -> bool {
+        let Some(own) = self.own else { return true };
+        match own.split_first() {
+            Some((first, rest)) if *first as usize == row => {
+                self.own = Some(rest);
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// The position of the sample of `row`; rows must be asked for in ascending order.
     fn position(&mut self, row: usize) -> Option<usize> {
         (self.next < self.series.len() && self.series.row(self.next) == row).then(|| {
@@ -77,12 +91,12 @@ impl Walk<'_> {
     fn raw(&self, track: &Track, row: usize, position: Option<usize>) -> Option<f64> {
         match position {
             Some(position) => Some(self.series.y[position]),
-            None => track.channel(self.name).and_then(|c| c.values.get(row).copied()).filter(|v| v.is_finite()),
+            None => track.channel(self.name).map(|c| c.value(row)).filter(|v| v.is_finite()),
         }
     }
 }
 
-/// Calls `visit` with every row and channel of a result, in the order of the file and of the session.
+/// Calls `visit` with every row and channel of a result (of several tracks, with each row its own channels), in the order of the file and of the session.
 fn walk(
     track: &Track,
     session: &Session,
@@ -98,14 +112,17 @@ fn walk(
             outcome,
             plan,
             next: 0,
+            own: channel.target.as_ref().map(|t| &*t.rows),
         });
     }
-    for_each_row(track, |row, cells| channels.iter_mut().try_for_each(|channel| visit(row, cells, channel)))
+    for_each_row(track, |row, cells| {
+        channels.iter_mut().filter_map(|c| c.owns(row).then_some(c)).try_for_each(|channel| visit(row, cells, channel))
+    })
 }
 
-/// The text of the time of a row, as the file has it; the sample number where there is no time column.
+/// The text of the time of a row, as the file has it (but no formula); the sample number where there is no time column.
 fn time_text(track: &Track, row: usize, cells: &Cells<'_>) -> String {
-    track.time.column.map_or_else(|| row.to_string(), |c| cells.text(c).into_owned())
+    track.time.column.map_or_else(|| row.to_string(), |c| inert(&cells.text(c)).into_owned())
 }
 
 /// A number as the tables have it, empty for none.

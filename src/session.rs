@@ -25,7 +25,7 @@ pub use analysis::{Counts, Detection, Fill, Mark, Outcome, Place, Run, detect, d
 pub use ballot::{Agreement, Ballot, candidates};
 pub use cleaned::{changes, clean_sha256, write_cleaned};
 pub use command_line::{clean_command, quoted, replay_command};
-pub use document::{read, render};
+pub use document::{parse, read, render};
 pub use edit::Edit;
 pub use replay::{Analysed, Opened, check, open, open_all};
 pub use save::document;

@@ -15,6 +15,7 @@ mod checks;
 mod chunk;
 mod feed;
 mod head;
+mod inert;
 mod interval;
 mod load;
 mod names;
@@ -33,6 +34,7 @@ mod shape;
 mod sniff;
 mod stamp;
 mod streamed;
+mod targets;
 mod text;
 mod timing;
 mod tokens;
@@ -41,6 +43,7 @@ mod widen;
 
 pub use cells::Cells;
 pub use checks::RowChecks;
+pub use inert::inert;
 pub use load::{LoadOptions, load};
 pub use number::number_text;
 pub(crate) use number::{Cell, Reading};
@@ -52,6 +55,7 @@ pub use printable::printable;
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use series::{Samples, Series, lost_samples};
+pub use targets::Target;
 pub(crate) use tokens::split;
 pub use widen::{NewColumn, widen};
 
@@ -167,6 +171,8 @@ pub enum ColumnKind {
     Number,
     /// 0 and 1, where 1 marks a real outlier.
     Truth,
+    /// The id of the track that the row belongs to.
+    Track,
     /// Something else, kept in the output and otherwise left alone.
     Text,
     /// No cell holds a value.
@@ -182,7 +188,9 @@ pub struct Channel {
     pub unit: String,
     /// Index of its column in [`Track::columns`].
     pub column: usize,
-    /// One value per row; NaN where there is none.
+    /// Its target, in a table of several tracks; none where all rows are one track.
+    pub target: Option<Target>,
+    /// One value per row (of its target, where it has one); NaN where there is none.
     pub values: Vec<f64>,
 }
 
@@ -200,8 +208,8 @@ pub struct TimeAxis {
     /// The time that is 0 in [`TimeAxis::seconds`], in nanoseconds: since 1970 for calendar formats, since the
     /// file's own zero for others.
     pub origin_ns: i128,
-    /// One time per row in seconds after the origin, strictly increasing; NaN where the row has no usable time
-    /// (none, unreadable, repeated, or before an earlier row).
+    /// One time per row in seconds after the origin, strictly increasing (in a table of several tracks: over the rows
+    /// of each); NaN where the row has no usable time (none, unreadable, repeated, or before an earlier row).
     pub seconds: Vec<f64>,
 }
 

@@ -42,7 +42,7 @@ pub mod files;
 mod find;
 mod fuzzy;
 mod hit;
-mod input;
+pub mod input;
 pub mod journal;
 pub mod keys;
 pub mod layout;

@@ -142,8 +142,8 @@ fn faults_are_those_of_the_description() {
     assert_eq!(machine.faults.backward_times.count + machine.faults.repeated_times.count, 12);
     assert!(machine.notes.is_empty(), "{:?}", machine.notes);
     assert_eq!(track("gps_oystercatcher_2019.csv").truth.map(|t| t.iter().filter(|t| **t).count()), Some(4));
-    for (name, id) in [("spacex_webcast_30hz.csv.gz", "`flight`"), ("gnss_phone_range_rate.csv", "`svid`")] {
-        assert!(track(name).notes[0].ends_with(&format!("told apart by {id}")), "{name}");
+    for (name, id) in [("spacex_webcast_30hz.csv.gz", "flight"), ("gnss_phone_range_rate.csv", "svid")] {
+        assert!(track(name).notes[0].ends_with(&format!("told apart by `{id}` (then: --track '{id}')")), "{name}");
     }
 }
 
@@ -217,5 +217,20 @@ fn originals_of_another_shape_are_refused() {
         let file = Source::File(folder.join("messy").join(name));
         let message = load(&file, &LoadOptions::default()).unwrap_err().to_string();
         assert!(message.contains(what), "{message}");
+    }
+}
+
+#[test]
+fn no_file_of_the_folder_is_left_out() {
+    let Some(folder) = folder() else { return };
+    let here = include_str!("recordings.rs");
+    // The table of flights that belongs to the webcast: names, and counts for each.
+    let tables = ["spacex_flights.csv", "README.md", "messy"];
+    assert_eq!(loaded(&folder.join("spacex_flights.csv")).rows, 46);
+    for folder in [folder.join("messy"), folder] {
+        for entry in std::fs::read_dir(&folder).unwrap() {
+            let name = entry.unwrap().file_name().into_string().unwrap();
+            assert!(tables.contains(&name.as_str()) || here.contains(&format!("\"{name}\"")), "{name} is not tested");
+        }
     }
 }

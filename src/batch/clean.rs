@@ -10,7 +10,7 @@ use super::{Ending, set_threads, tell};
 use crate::cli::{OutputArgs, Shared};
 use crate::error::{Error, Result};
 use crate::report::{Summary, diagnostics, flags, report};
-use crate::session::{Analysed, Session, Setup, document, write_cleaned};
+use crate::session::{Analysed, Plan, Session, Setup, document, write_cleaned};
 use crate::stop::Stop;
 use crate::track::{Outputs, Source, Track, load};
 
@@ -50,9 +50,9 @@ fn one(file: &Path, (shared, suggested): (&Shared, bool), setup: &Setup, target:
     let mut session = Session::new(&track, shared.load.options(None), setup);
     // A rate channel that was loaded beside the named ones is not judged.
     if !shared.load.channel.is_empty() {
-        session.plans.retain(|p| shared.load.channel.contains(&p.channel) || shared.rate.as_ref() != Some(&p.channel));
+        session.plans.retain(|p| any(&track, &shared.load.channel, p) || !any(&track, &shared.rate, p));
     }
-    session.plans.retain(|p| shared.reference.as_ref() != Some(&p.channel));
+    session.plans.retain(|p| !any(&track, &shared.reference, p));
     let notes = if suggested { suggest::suggest(&mut session, &track)? } else { Vec::new() };
     let analysed = Analysed::of(&session, &track, &Stop::never())?;
     let mut summary = Summary::of(&track, &session, &analysed);
@@ -70,6 +70,11 @@ fn one(file: &Path, (shared, suggested): (&Shared, bool), setup: &Setup, target:
     }
     files.commit()?;
     Ok(summary)
+}
+
+/// True when one of the names means the channel of a plan.
+fn any<'a>(track: &Track, names: impl IntoIterator<Item = &'a String>, plan: &Plan) -> bool {
+    track.channel(&plan.channel).is_some_and(|c| names.into_iter().any(|name| track.means(name, c)))
 }
 
 /// Prepares the outputs that were asked for.

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::judged::tolerance_of;
 use super::{Directions, Judged, Restart, Verdict};
 
 /// Samples of a block.
@@ -95,7 +96,7 @@ impl Gated {
     #[inline]
     pub fn tolerance(&self, position: usize) -> Option<f64> {
         match &self.gate {
-            Some(gate) => self.scores.scale.get(position).map(|scale| gate.k * scale),
+            Some(gate) => self.scores.scale.get(position).map(|&scale| tolerance_of(gate.k, scale)),
             None => self.scores.tolerance.get(position).copied(),
         }
     }
@@ -139,7 +140,7 @@ impl Gated {
 fn gate_block(verdict: &mut [Verdict], y: &[f64], expected: &[f64], scale: &[f64], k: f64) -> (f64, f64) {
     let (mut low, mut high) = (0.0, f64::INFINITY);
     for (((verdict, &y), &p), &s) in verdict.iter_mut().zip(y).zip(expected).zip(scale) {
-        *verdict = Verdict::of_deviation(y, p, k * s);
+        *verdict = Verdict::of_deviation(y, p, tolerance_of(k, s));
         // Without an expected value, and with a scale of zero, no multiplier flags.
         if p.is_nan() || s.is_nan() || s <= 0.0 {
             continue;

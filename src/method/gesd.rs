@@ -109,3 +109,31 @@ impl Criterion for Rosner {
         Ok(Pass { flagged: removals.taken, groups: vec![Some(Limit { mean: left.mean, scale, tolerance })] })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::method::{Verdict, judge_channel};
+    use crate::track::Series;
+
+    /// Positions flagged among twelve samples of plus and minus one, some of which are 50.
+    fn flagged(wild: &[usize], max_fraction: f64) -> Vec<usize> {
+        let t: Vec<f64> = (0..12).map(f64::from).collect();
+        let mut y: Vec<f64> = (0..12).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        wild.iter().for_each(|i| y[*i] = 50.0);
+        let mut settings = Settings::defaults(&PARAMS);
+        settings.set("gesd", "max_fraction", Value::Real(max_fraction)).unwrap();
+        settings.set("gesd", "trend_order", Value::Whole(0)).unwrap();
+        let judged = judge_channel(&Gesd, &Series::new(&t, &y), None, &settings, &Stop::never()).unwrap();
+        (0..12).filter(|i| judged.verdict[*i] == Verdict::Outlier).collect()
+    }
+
+    #[test]
+    fn so_many_candidates_are_tried_as_the_fraction_allows_and_never_none() {
+        // Two of twelve mask each other: R1 is 2.14, the critical value of Grubbs (two-sided, 5 %) 2.41; R2, of eleven,
+        // is 3.0 against 2.36. So one candidate finds none of them, and two find both.
+        assert_eq!(flagged(&[3, 8], 0.1), [0; 0], "floor(1.2) is one");
+        assert_eq!(flagged(&[3, 8], 0.2), [3, 8], "floor(2.4) is two");
+        assert_eq!(flagged(&[3], 0.05), [3], "floor(0.6) is none, and one is tried all the same");
+    }
+}

@@ -43,6 +43,13 @@ pub struct Directions {
     pub backward: Option<Direction>,
 }
 
+/// The tolerance `k * scale`; NaN where it overflows, for such a bound says nothing.
+#[inline]
+pub(super) fn tolerance_of(k: f64, scale: f64) -> f64 {
+    let tolerance = k * scale;
+    if tolerance.is_infinite() { f64::NAN } else { tolerance }
+}
+
 impl Judged {
     /// `n` samples of which nothing can be said.
     #[must_use]
@@ -55,10 +62,31 @@ impl Judged {
         }
     }
 
-    /// Verdicts from expected values and scales for a multiplier `k`: tolerance `k * scale`; a sample without an
-    /// expected value is unchecked, one with a zero scale normal.
+    /// Without infinities: where values near the largest double made an expected value or a tolerance overflow, there is
+    /// none, and the sample is unchecked, for nothing was found out about it. Nor is a sample an outlier without both.
     #[must_use]
-    pub fn gated(y: &[f64], expected: Vec<f64>, scale: Vec<f64>, k: f64) -> Self {
+    pub fn bounded(mut self) -> Self {
+        for ((verdict, p), h) in self.verdict.iter_mut().zip(&mut self.expected).zip(&mut self.tolerance) {
+            if p.is_finite() && h.is_finite() {
+                continue;
+            }
+            if *verdict == Verdict::Outlier || p.is_infinite() || h.is_infinite() {
+                *verdict = Verdict::Unchecked;
+            }
+            for value in [p, h] {
+                if value.is_infinite() {
+                    *value = f64::NAN;
+                }
+            }
+        }
+        self
+    }
+
+    /// Verdicts from expected values and scales for a multiplier `k`: tolerance `k * scale`; a sample without an
+    /// expected value or with a tolerance that overflows is unchecked, one with a zero scale normal.
+    #[must_use]
+    pub fn gated(y: &[f64], mut expected: Vec<f64>, scale: Vec<f64>, k: f64) -> Self {
+        expected.iter_mut().filter(|p| p.is_infinite()).for_each(|p| *p = f64::NAN);
         let mut judged = Self { expected, scale, ..Self::default() };
         judged.gate(y, k);
         judged
@@ -67,7 +95,7 @@ impl Judged {
     /// Judges again from [`Judged::scale`] with another multiplier.
     pub fn gate(&mut self, y: &[f64], k: f64) {
         let said = |((&p, &scale), &y): ((&f64, &f64), &f64)| {
-            let tolerance = k * scale;
+            let tolerance = tolerance_of(k, scale);
             (tolerance, Verdict::of_deviation(y, p, tolerance))
         };
         let scores = self.expected.par_iter().zip(&self.scale).zip(y).with_min_len(CHUNK);

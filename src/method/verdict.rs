@@ -20,11 +20,11 @@ impl Verdict {
     pub const ALL: [Self; 5] = [Self::Normal, Self::Outlier, Self::Suspect, Self::Unchecked, Self::Missing];
 
     /// What is said of the value `y` where `expected` was to be measured, within `tolerance`: unchecked where nothing
-    /// was expected.
+    /// was expected, or within no bounds.
     #[must_use]
     #[inline]
     pub fn of_deviation(y: f64, expected: f64, tolerance: f64) -> Self {
-        if expected.is_nan() {
+        if expected.is_nan() || !tolerance.is_finite() {
             Self::Unchecked
         } else if reaches((y - expected).abs(), tolerance) {
             Self::Outlier

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::{cell, time_text, verdict_word, walk, write_row};
 use crate::error::{Error, Result};
 use crate::session::{Analysed, Session};
-use crate::track::Track;
+use crate::track::{Track, inert};
 
 /// The columns, in order.
 const HEADER: [&str; 8] = ["row", "time", "channel", "raw", "verdict", "expected", "tolerance", "clean"];
@@ -21,10 +21,10 @@ pub fn diagnostics(track: &Track, session: &Session, analysed: &Analysed, out: &
         let position = channel.position(row);
         let judged = &channel.outcome.detection.judged;
         let clean = position.map_or_else(|| channel.fill(row), |p| channel.clean(p));
-        let fields = [
+        let fields: [&str; 8] = [
             &(row + 1).to_string(),
             &time_text(track, row, cells),
-            channel.name,
+            &inert(channel.name),
             &cell(channel.raw(track, row, position)),
             verdict_word(channel.outcome, position),
             &cell(position.and_then(|p| judged.expected().get(p).copied())),

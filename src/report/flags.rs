@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::method::{Direction, Verdict};
 use crate::plot::FlagState;
 use crate::session::{Analysed, Session};
-use crate::track::Track;
+use crate::track::{Track, inert};
 
 /// The columns, in order.
 const HEADER: [&str; 17] = [
@@ -53,7 +53,7 @@ fn of_sample(session: &Session, channel: &Walk<'_>, row: usize, position: usize)
     Some([
         e.row.to_string(),
         String::new(),
-        channel.name.to_owned(),
+        inert(channel.name).into_owned(),
         cell(Some(e.raw)),
         e.verdict.word().to_owned(),
         e.run.map_or("", |r| if r.length == 1 { "isolated" } else { "patch" }).to_owned(),
@@ -67,7 +67,7 @@ fn of_sample(session: &Session, channel: &Walk<'_>, row: usize, position: usize)
         cell(e.clean),
         e.action().to_owned(),
         if e.decided { "analyst" } else { "method" }.to_owned(),
-        e.note,
+        inert(&e.note).into_owned(),
     ])
 }
 

@@ -94,7 +94,8 @@ impl Inspection {
     #[must_use]
     pub fn of(track: &Track) -> Self {
         let usable: Vec<f64> = track.time.seconds.iter().copied().filter(|t| t.is_finite()).collect();
-        let ends = usable.first().zip(usable.last());
+        // In a table of several tracks times may start again.
+        let ends = usable.iter().copied().reduce(f64::min).zip(usable.iter().copied().reduce(f64::max));
         Self {
             file: track.source.path().map_or_else(|| track.source.name(), |p| p.display().to_string()),
             sha256: track.sha256.clone(),
@@ -114,7 +115,7 @@ impl Inspection {
                 .collect(),
             time: track.time.name.clone(),
             time_format: track.time.format.words(),
-            time_range: ends.map(|(a, b)| (track.time.full_label(*a), track.time.full_label(*b))),
+            time_range: ends.map(|(a, b)| (track.time.full_label(a), track.time.full_label(b))),
             duration_s: ends.map(|(a, b)| b - a),
             channels: track.channels.iter().map(|c| channel_facts(track, c)).collect(),
             faults: fault_facts(&track.faults),
@@ -217,7 +218,7 @@ fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts
         name: channel.name.clone(),
         unit: channel.unit.clone(),
         present: series.len(),
-        missing: track.rows - series.len(),
+        missing: channel.rows(track) - series.len(),
         interval_s: Some(series.interval).filter(|t| t.is_finite()),
         lost: (1..series.len()).map(|i| series.lost_before(i)).fold(0, usize::saturating_add),
         segments: segments.len(),
@@ -232,6 +233,7 @@ fn kind_word(kind: ColumnKind) -> &'static str {
         ColumnKind::Time => "time",
         ColumnKind::Number => "number",
         ColumnKind::Truth => "truth",
+        ColumnKind::Track => "track",
         ColumnKind::Text => "text",
         ColumnKind::Empty => "empty",
     }

@@ -118,7 +118,8 @@ impl Summary {
     /// # Errors
     /// [`Error::Usage`] when no such column was loaded.
     pub fn compare_with(&mut self, track: &Track, analysed: &Analysed, reference: &str) -> Result<()> {
-        let Some(column) = track.channel(reference) else {
+        let judged = analysed.channels.first().map(|(index, _, _)| &track.channels[*index]);
+        let Some(column) = judged.map_or_else(|| track.channel(reference), |c| track.beside(c, reference)) else {
             return Err(Error::usage(
                 format!("{reference}: there is no such numeric column for the reference"),
                 "name the column of the outlier-free values, as the header has it",
@@ -127,7 +128,8 @@ impl Summary {
         if let (Some(summary), Some((index, samples, outcome))) = (self.channels.first_mut(), analysed.channels.first())
         {
             let series = samples.series(&track.channels[*index], &track.time);
-            summary.final_error = Some(final_error(outcome, &series, &column.values));
+            let values: Vec<f64> = (0..track.rows).map(|row| column.value(row)).collect();
+            summary.final_error = Some(final_error(outcome, &series, &values));
         }
         Ok(())
     }

@@ -51,7 +51,7 @@ pub fn detect(
         let (segments, scales) = (previous.segments.clone(), previous.scales.clone());
         return Ok(Detection { setup: setup.clone(), segments, scales, judged });
     }
-    let rate = rate_channel(track, setup)?.map(|c| Series::of(c, &track.time));
+    let rate = rate_channel(track, channel, setup)?.map(|c| Series::of(c, &track.time));
     let rate = rate.as_ref().map(|r| Rate { t: &r.t, y: &r.y });
     let segments = segments(&series, &setup.settings);
     stop.check()?;
@@ -75,7 +75,7 @@ impl Detection {
     }
 }
 
-fn rate_channel<'a>(track: &'a Track, setup: &Setup) -> Result<Option<&'a Channel>> {
+fn rate_channel<'a>(track: &'a Track, channel: &Channel, setup: &Setup) -> Result<Option<&'a Channel>> {
     let id = setup.method.about().id;
     if !setup.method.about().needs_rate {
         return Ok(None);
@@ -87,7 +87,7 @@ fn rate_channel<'a>(track: &'a Track, setup: &Setup) -> Result<Option<&'a Channe
             format!("name it with --rate, or in the workbench at `rate` (3); channels: {}", names()),
         ));
     };
-    let found = track.channel(name);
+    let found = track.beside(channel, name);
     found.map(Some).ok_or_else(|| {
         Error::usage(format!("{name}: there is no such channel for the rate"), format!("channels: {}", names()))
     })
@@ -119,7 +119,7 @@ pub fn detect_together(
         channels.iter().map(|(channel, samples)| samples.series(channel, &track.time)).collect();
     let series: Vec<&Series<'_>> = series.iter().collect();
     let parts = setup.method.judge_together(&series, &setup.settings, stop)?;
-    let detection = |part: Together| Detection::new(setup.clone(), part.segments, part.scales, part.judged);
+    let detection = |part: Together| Detection::new(setup.clone(), part.segments, part.scales, part.judged.bounded());
     Ok(parts.into_iter().map(detection).collect())
 }
 
@@ -142,7 +142,7 @@ pub fn settle(
     let mut fixes = Vec::with_capacity(outliers.len());
     let mut runs = Vec::new();
     let mut fills = Vec::new();
-    let gaps = gaps_to_fill(track, &series, &detection);
+    let gaps = gaps_to_fill(track, channel, &series, &detection);
     for (range, scales) in detection.segments.iter().zip(&detection.scales) {
         stop.check()?;
         let from = outliers.partition_point(|&i| i < range.start);
@@ -170,7 +170,7 @@ pub fn settle(
         }
     }
     fills.sort_by_key(|f: &Fill| f.place);
-    let counts = count(track.rows, &detection, &marks, &fixes, &runs, fills.len());
+    let counts = count(channel.rows(track), &detection, &marks, &fixes, &runs, fills.len());
     Ok(Outcome { detection, marks, outliers, fixes, runs, fills, counts })
 }
 

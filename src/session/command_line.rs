@@ -46,7 +46,7 @@ fn loading(line: &mut String, options: &LoadOptions) -> Option<()> {
     if only_in_sessions {
         return None;
     }
-    for (name, value) in [("time", &options.time), ("truth", &options.truth)] {
+    for (name, value) in [("time", &options.time), ("track", &options.track), ("truth", &options.truth)] {
         if let Some(value) = value {
             option(line, name, value);
         }

@@ -6,8 +6,8 @@ use crate::track::Delimiter;
 mod read;
 mod write;
 
-pub use read::read;
 pub(super) use read::{Read, WrittenDecision, read_with_texts};
+pub use read::{parse, read};
 pub use write::render;
 
 /// The version of the file that this program writes and reads.

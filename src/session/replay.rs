@@ -162,7 +162,7 @@ fn misfits(track: &Track, plans: &[Plan], texts: &[Vec<WrittenDecision>]) -> Res
 }
 
 fn channel_value(track: &Track, channel: &str, row: usize) -> f64 {
-    let value = track.channel(channel).and_then(|c| c.values.get(row).copied()).unwrap_or(f64::NAN);
+    let value = track.channel(channel).map_or(f64::NAN, |c| c.value(row));
     let time = track.time.seconds.get(row).copied().unwrap_or(f64::NAN);
     if time.is_nan() { f64::NAN } else { value }
 }
@@ -262,8 +262,10 @@ fn together(
         if !plans[first].setup.together() || detections[first].is_some() {
             continue;
         }
+        let channel = |plan: usize| &track.channels[prepared[plan].0];
+        let shares = |plan: usize| channel(plan).same_target(channel(first));
         let members: Vec<usize> =
-            (first..plans.len()).filter(|&i| plans[i].setup.same_detection(&plans[first].setup)).collect();
+            (first..plans.len()).filter(|&i| plans[i].setup.same_detection(&plans[first].setup) && shares(i)).collect();
         let channels: Vec<_> = members.iter().map(|&i| (&track.channels[prepared[i].0], &prepared[i].1)).collect();
         let found = detect_together(track, &channels, &plans[first].setup, stop)?;
         for (member, detection) in members.into_iter().zip(found) {

@@ -8,7 +8,7 @@ use super::judge::Said;
 use super::layout::Sample;
 use crate::cli::FormatArg;
 use crate::error::{Error, Result};
-use crate::track::number_text;
+use crate::track::{inert, number_text};
 
 /// The columns, in order.
 pub(super) const HEADER: &str = "row,time,value,verdict,expected,tolerance,correction";
@@ -116,8 +116,9 @@ fn line(format: FormatArg, told: &Told<'_>, out: &mut dyn Write) -> Result<()> {
     put(out, &cells.join(","))
 }
 
-/// A cell, in quotes where it needs them.
+/// A cell that no spreadsheet runs, in quotes where it needs them.
 fn quoted(text: &str) -> String {
+    let text = &*inert(text);
     if text.contains(['"', ',', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 

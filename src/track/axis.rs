@@ -120,14 +120,14 @@ impl TimeAxis {
     }
 
     fn seconds_at(&self, ns: i128) -> f64 {
-        seconds_of(ns - self.origin_ns)
+        seconds_of(ns.saturating_sub(self.origin_ns))
     }
 
     /// The first time of day `clock` at the origin or after it.
     fn next_at(&self, clock: i64) -> Option<i128> {
         let day = i128::from(DAY);
-        let today = self.origin_ns.div_euclid(day).checked_mul(day)? + i128::from(clock);
-        Some(if today < self.origin_ns { today + day } else { today })
+        let today = self.origin_ns.div_euclid(day).checked_mul(day)?.checked_add(i128::from(clock))?;
+        if today < self.origin_ns { today.checked_add(day) } else { Some(today) }
     }
 }
 
@@ -135,12 +135,12 @@ impl TimeAxis {
 pub(super) fn seconds_of(ns: i128) -> f64 {
     const EXACT: i128 = 1 << 53;
     let (mut ns, mut scale) = (ns, 1e9);
-    while ns.abs() >= EXACT && ns % 10 == 0 && scale > 1.0 {
+    while ns.unsigned_abs() >= EXACT.unsigned_abs() && ns % 10 == 0 && scale > 1.0 {
         ns /= 10;
         scale /= 10.0;
     }
     #[expect(clippy::cast_precision_loss, reason = "below 2^53, or whole seconds, which round once")]
-    if ns.abs() < EXACT || scale == 1.0 {
+    if ns.unsigned_abs() < EXACT.unsigned_abs() || scale == 1.0 {
         return ns as f64 / scale;
     }
     // Reading decimal text rounds once.
@@ -150,11 +150,14 @@ pub(super) fn seconds_of(ns: i128) -> f64 {
 /// `ns` rounded to `digits` decimals of a second, ties away from zero.
 fn rounded(ns: i128, digits: usize) -> i128 {
     let step = 10_i128.pow(9 - u32::try_from(digits.min(MOST_DECIMALS)).unwrap_or(9));
-    divided(ns, step) * step
+    divided(ns, step).saturating_mul(step)
 }
 
+/// The nearest whole quotient, ties away from zero; `b` is positive. (No sum or difference of `a`: it may be the last
+/// number that 128 bits hold, where a file has times like 1e300.)
 fn divided(a: i128, b: i128) -> i128 {
-    (a.abs() + b / 2) / b * a.signum()
+    let (quotient, rest) = (a / b, a % b);
+    if rest.abs() >= b - b / 2 { quotient + a.signum() } else { quotient }
 }
 
 /// `ns` in units of `unit` nanoseconds with `digits` decimals.
@@ -163,7 +166,7 @@ fn fixed(ns: i128, unit: i64, digits: usize) -> String {
     let power = 10_i128.pow(u32::try_from(digits).unwrap_or(0));
     let scaled = divided(ns.saturating_mul(power), i128::from(unit));
     let sign = if scaled < 0 { "-" } else { "" };
-    let (whole, part) = (scaled.abs() / power, scaled.abs() % power);
+    let (whole, part) = (scaled.unsigned_abs() / power.unsigned_abs(), scaled.unsigned_abs() % power.unsigned_abs());
     if digits == 0 { format!("{sign}{whole}") } else { format!("{sign}{whole}.{part:0digits$}") }
 }
 

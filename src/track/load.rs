@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use super::body::{Body, Numbers, Plan};
 use super::feed::{Feed, Unfit};
 use super::head::{Head, open_quote};
-use super::order::{Moments, Ordered, Rows, order};
+use super::order::{Moments, Ordered, Rows, order, sample_numbers};
 use super::roles::{Roles, assign};
 use super::shape::{refuse_long_form, refuse_other_formats};
 use super::streamed::streamed;
+use super::targets::{self, Targets};
 use super::text::{Text, path_of, sha256, stored};
 use super::timing::{Timing, choose};
 use super::tokens::inner;
@@ -27,6 +28,8 @@ pub struct LoadOptions {
     pub time: Option<String>,
     /// The channels, by name or as `#3`. None: every numeric column that is neither time nor truth.
     pub channels: Vec<String>,
+    /// The column that tells several tracks in one table apart, by name or as `#3`. None: all rows are one track.
+    pub track: Option<String>,
     /// The truth column. Recognised: the only column of 0 and 1 with `truth` in its name.
     pub truth: Option<String>,
     /// Cells that mean "no value", besides the usual ones; numbers are compared by value.
@@ -72,7 +75,7 @@ pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
         Failure::Open(quote) => open_quote(&path, quote),
         Failure::Unfit(_) => Error::input(&path, "it cannot be read", "copy or fetch the file again"),
     })?;
-    understood.track(source, sha256, parsed, options, &|| Ok(Feed::of(text.body(), line_end)))
+    understood.track(source, (sha256, Some(&text)), parsed, options, &|| Ok(Feed::of(text.body(), line_end)))
 }
 
 /// What the head of a file tells of the whole.
@@ -80,9 +83,36 @@ pub(super) struct Understood {
     pub(super) head: Head,
     timing: Option<Timing>,
     roles: Roles,
+    /// The column that tells tracks apart.
+    track_column: Option<usize>,
     encoding: Encoding,
     gzip: bool,
     path: PathBuf,
+}
+
+/// A number that is written with a decimal comma between commas would be two cells.
+fn refuse_torn_decimals(head: &Head) -> Result<()> {
+    let commas = head.layout.delimiter == Delimiter::Byte(b',') && head.reading.decimal_comma;
+    if commas && head.layout.quote.is_none() {
+        return Err(Error::usage(
+            "a comma cannot both part cells and begin decimals where there are no quotes",
+            "leave one of --decimal-comma and --no-quotes out, or name another --delimiter",
+        ));
+    }
+    Ok(())
+}
+
+/// Divides the channels among the targets that `column` tells apart; gives the target of each row.
+fn divided(
+    track: &mut Track,
+    column: usize,
+    (text, head): (&Text<'_>, &Head),
+    options: &LoadOptions,
+) -> Result<Vec<u32>> {
+    let targets = Targets::read(track, text, column, head, &path_of(&track.source))?;
+    track.channels = targets.divide(std::mem::take(&mut track.channels), head, options)?;
+    track.notes = targets.notes(track);
+    Ok(targets.of_row)
 }
 
 /// The rows, and the moments of the time column where there is one.
@@ -96,12 +126,16 @@ impl Understood {
     pub(super) fn of(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
         refuse_other_formats(text.body(), path)?;
         let head = Head::of(text, options, path)?;
-        refuse_long_form(&head, path)?;
+        refuse_torn_decimals(&head)?;
+        let track_column = targets::column(&head, options)?;
+        if track_column.is_none() {
+            refuse_long_form(&head, path)?;
+        }
         let by_sample = options.time.as_deref() == Some("sample") && !head.names.iter().any(|n| n == "sample");
         let timing = if by_sample { None } else { choose(&head, options, path)? };
         let roles = assign(&head, timing.as_ref(), options)?;
         let (encoding, gzip) = (text.encoding, text.gzip);
-        Ok(Self { head, timing, roles, encoding, gzip, path: path.to_path_buf() })
+        Ok(Self { head, timing, roles, track_column, encoding, gzip, path: path.to_path_buf() })
     }
 
     /// Parses the rows of a feed that begins with the first of them and has about so many bytes; gives the feed of
@@ -138,11 +172,12 @@ impl Understood {
         Ok(((body, Some(Moments::Float(seconds))), feed))
     }
 
-    /// The track of these rows.
+    /// The track of these rows, from a source with this sum. Several tracks are told apart by the text, which is there
+    /// whenever `options` name their column.
     pub(super) fn track(
         &self,
         source: &Source,
-        sha256: String,
+        (sha256, text): (String, Option<&Text<'_>>),
         (mut body, moments): Parsed,
         options: &LoadOptions,
         again: Again<'_>,
@@ -155,7 +190,6 @@ impl Understood {
         }
         let columns = columns_of(head, timing, roles, &body, options)?;
         let clock = timing.is_some_and(|t| t.format == TimeFormat::Clock);
-        let ordered = moments.map(|m| order(m, clock));
         let mut track = Track {
             source: source.clone(),
             sha256,
@@ -169,8 +203,15 @@ impl Understood {
             columns,
             notes: Vec::new(),
         };
-        if let Some(ordered) = ordered {
-            take_times(&mut track, ordered, again)?;
+        let of_row = match self.track_column.zip(text) {
+            Some((column, text)) => Some(divided(&mut track, column, (text, head), options)?),
+            None => None,
+        };
+        let of_row = of_row.as_deref();
+        match (moments, of_row) {
+            (Some(moments), _) => take_times(&mut track, order(moments, clock, of_row), again)?,
+            (None, Some(of_row)) => track.time.seconds = sample_numbers(of_row),
+            (None, None) => {}
         }
         track.notes.extend(notes::about_shape(&track, head));
         Ok(track)
@@ -205,6 +246,7 @@ fn columns_of(
         let numbers = roles.slots[index].map(|slot| &body.numbers[slot]);
         let kind = match numbers {
             _ if timing.is_some_and(|t| t.column == index || t.date_column == Some(index)) => ColumnKind::Time,
+            _ if roles.track == Some(index) => ColumnKind::Track,
             Some(numbers) if roles.truth == Some(index) => {
                 check_truth(name, numbers)?;
                 ColumnKind::Truth
@@ -258,7 +300,7 @@ fn channels_of(columns: &[Column], roles: &Roles, body: &mut Body, path: &Path) 
     let channel = |index: usize| {
         let values = roles.slots[index].map(|slot| std::mem::take(&mut body.numbers[slot].values)).unwrap_or_default();
         let Column { name, unit, .. } = &columns[index];
-        Channel { name: name.clone(), unit: unit.clone(), column: index, values }
+        Channel { name: name.clone(), unit: unit.clone(), column: index, target: None, values }
     };
     let channels: Vec<Channel> = wanted.into_iter().map(channel).collect();
     if channels.is_empty() {

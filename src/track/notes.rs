@@ -40,7 +40,11 @@ pub(crate) fn about_backward_times(track: &Track, text: &mut Feed<'_>, row: usiz
         named || (column.kind == ColumnKind::Text && differs)
     });
     let cause = match id {
-        Some((_, column)) => format!("or several tracks in one table, told apart by `{}`", printable(&column.name)),
+        _ if track.track_column().is_some() => "or two tracks under one id".into(),
+        Some((_, column)) => {
+            let name = printable(&column.name);
+            format!("or several tracks in one table, told apart by `{name}` (then: --track '{name}')")
+        }
         None => "or several tracks in one table".into(),
     };
     Ok(format!(

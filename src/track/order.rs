@@ -2,6 +2,7 @@
 
 use super::axis::seconds_of;
 use super::calendar::{DAY, SECOND};
+use super::targets::NOBODY;
 use super::timing::is_midnight;
 
 /// The moments of all rows.
@@ -44,48 +45,102 @@ pub(crate) struct Ordered {
 
 /// Puts moments in order: the first readable one is the origin, and a row whose moment is not after that of the last
 /// usable row gets NaN. With `clock`, moments are times of day, and a step back of more than half a day is midnight.
-pub(crate) fn order(moments: Moments, clock: bool) -> Ordered {
+///
+/// With `of_row` (for each row its target, or [`NOBODY`]) every target has times of its own; a row of nobody gets NaN
+/// and is no fault.
+pub(crate) fn order(moments: Moments, clock: bool, of_row: Option<&[u32]>) -> Ordered {
     match moments {
-        Moments::Exact(ns) => exact(ns, clock),
-        Moments::Float(seconds) => float(seconds),
+        Moments::Exact(ns) => exact(ns, clock, &mut Lasts { of_row, lasts: Vec::new() }),
+        Moments::Float(seconds) => float(seconds, &mut Lasts { of_row, lasts: Vec::new() }),
     }
 }
 
-fn exact(moments: Vec<i64>, clock: bool) -> Ordered {
+/// Numbers of the samples of each target, counted from 0; NaN for rows of nobody.
+pub(crate) fn sample_numbers(of_row: &[u32]) -> Vec<f64> {
+    let mut counts: Vec<f64> = Vec::new();
+    let number = |&target: &u32| {
+        if target == NOBODY {
+            return f64::NAN;
+        }
+        let index = target as usize;
+        if counts.len() <= index {
+            counts.resize(index + 1, 0.0);
+        }
+        counts[index] += 1.0;
+        counts[index] - 1.0
+    };
+    of_row.iter().map(number).collect()
+}
+
+/// The last usable time of each target.
+struct Lasts<'a, T> {
+    of_row: Option<&'a [u32]>,
+    lasts: Vec<T>,
+}
+
+impl<T: Default + Clone> Lasts<'_, T> {
+    /// What is kept for the target of `row`; none for a row of nobody.
+    fn of(&mut self, row: usize) -> Option<&mut T> {
+        let target = match self.of_row {
+            None => 0,
+            Some(of_row) => of_row.get(row).copied().filter(|t| *t != NOBODY)? as usize,
+        };
+        if self.lasts.len() <= target {
+            self.lasts.resize(target + 1, T::default());
+        }
+        self.lasts.get_mut(target)
+    }
+}
+
+/// The last usable row: its moment in nanoseconds (none before the first), its seconds, and the midnights passed.
+#[derive(Default, Clone)]
+struct LastExact {
+    moment: Option<i64>,
+    seconds: f64,
+    days: Days,
+}
+
+/// The last usable row: its moment and its seconds after the origin.
+#[derive(Clone)]
+struct LastFloat {
+    moment: f64,
+    seconds: f64,
+}
+
+impl Default for LastFloat {
+    fn default() -> Self {
+        Self { moment: f64::NEG_INFINITY, seconds: f64::NEG_INFINITY }
+    }
+}
+
+fn exact(moments: Vec<i64>, clock: bool, lasts: &mut Lasts<'_, LastExact>) -> Ordered {
     let mut ordered = Ordered::default();
-    let mut last: Option<i64> = None;
-    let mut last_seconds = 0.0;
-    let mut origin = 0;
-    let mut days = Days::default();
+    let mut origin: Option<i64> = None;
     let mut place = |row: usize, moment: i64| {
+        let Some(last) = lasts.of(row) else { return f64::NAN };
         if moment == UNREADABLE {
             ordered.unreadable.add(row);
             return f64::NAN;
         }
-        let now = if clock { days.moment(moment, last) } else { moment };
-        let Some(before) = last else {
-            origin = now;
-            last = Some(now);
-            return 0.0;
-        };
+        let now = if clock { last.days.moment(moment, last.moment) } else { moment };
         // Over spans of months a double of seconds is coarser than a nanosecond: the axis must increase all the same.
-        let seconds = since(now, origin);
-        if seconds > last_seconds {
-            last = Some(now);
-            last_seconds = seconds;
+        let seconds = since(now, *origin.get_or_insert(now));
+        let Some(before) = last.moment.filter(|_| seconds <= last.seconds) else {
+            last.moment = Some(now);
+            last.seconds = seconds;
             return seconds;
-        }
+        };
         let fault = if now >= before { &mut ordered.repeated } else { &mut ordered.backward };
         fault.add(row);
         f64::NAN
     };
     // Collecting in place of the moments keeps memory at one column.
     let seconds = moments.into_iter().enumerate().map(|(row, moment)| place(row, moment)).collect();
-    Ordered { origin_ns: i128::from(origin), seconds, ..ordered }
+    Ordered { origin_ns: i128::from(origin.unwrap_or(0)), seconds, ..ordered }
 }
 
 /// The midnights that a file of times of day has passed.
-#[derive(Default)]
+#[derive(Default, Clone)]
 struct Days {
     passed: i64,
 }
@@ -115,29 +170,29 @@ fn since(now: i64, origin: i64) -> f64 {
     }
 }
 
-fn float(mut seconds: Vec<f64>) -> Ordered {
+fn float(mut seconds: Vec<f64>, lasts: &mut Lasts<'_, LastFloat>) -> Ordered {
     let mut ordered = Ordered::default();
-    let mut last = f64::NEG_INFINITY;
-    let mut last_seconds = f64::NEG_INFINITY;
-    let origin = seconds.iter().copied().find(|s| s.is_finite()).unwrap_or(0.0);
+    let mut origin: Option<f64> = None;
     for (row, moment) in seconds.iter_mut().enumerate() {
         let now = *moment;
-        *moment = now - origin;
+        *moment = f64::NAN;
+        let Some(last) = lasts.of(row) else { continue };
         if !now.is_finite() {
             ordered.unreadable.add(row);
-        } else if now < last {
-            ordered.backward.add(row);
-        } else if *moment <= last_seconds {
-            ordered.repeated.add(row);
-        } else {
-            last = now;
-            last_seconds = *moment;
             continue;
         }
-        *moment = f64::NAN;
+        let after_origin = now - *origin.get_or_insert(now);
+        if now < last.moment {
+            ordered.backward.add(row);
+        } else if after_origin <= last.seconds {
+            ordered.repeated.add(row);
+        } else {
+            *last = LastFloat { moment: now, seconds: after_origin };
+            *moment = after_origin;
+        }
     }
     #[expect(clippy::cast_possible_truncation, reason = "saturates, and nanoseconds suffice")]
-    let origin_ns = (origin * 1e9).round() as i128;
+    let origin_ns = (origin.unwrap_or(0.0) * 1e9).round() as i128;
     Ordered { origin_ns, seconds, ..ordered }
 }
 
@@ -148,7 +203,7 @@ mod tests {
     #[test]
     fn what_does_not_go_forward_is_nan_and_counted() {
         let s = SECOND;
-        let ordered = order(Moments::Exact(vec![UNREADABLE, 5 * s, 6 * s, 6 * s, 4 * s, 6 * s, 7 * s]), false);
+        let ordered = order(Moments::Exact(vec![UNREADABLE, 5 * s, 6 * s, 6 * s, 4 * s, 6 * s, 7 * s]), false, None);
         assert_eq!(ordered.origin_ns, 5_000_000_000);
         let rows = |first: &[usize]| Rows { count: first.len(), first: first.to_vec() };
         assert_eq!((ordered.unreadable, ordered.repeated, ordered.backward), (rows(&[0]), rows(&[3, 5]), rows(&[4])));
@@ -159,7 +214,7 @@ mod tests {
     #[test]
     fn seconds_after_a_large_origin_are_those_after_zero() {
         let tenth = SECOND / 10;
-        let large = order(Moments::Exact((0..1000).map(|i| 1_700_000_000 * SECOND + i * tenth).collect()), false);
+        let large = order(Moments::Exact((0..1000).map(|i| 1_700_000_000 * SECOND + i * tenth).collect()), false, None);
         let expected: Vec<f64> = (0..1000).map(|i| format!("{}.{}", i / 10, i % 10).parse().unwrap()).collect();
         assert_eq!(large.seconds, expected);
     }
@@ -167,7 +222,7 @@ mod tests {
     #[test]
     fn times_of_day_pass_midnight_and_stragglers_stay_behind() {
         let h = 3600 * SECOND;
-        let ordered = order(Moments::Exact(vec![23 * h, 24 * h - 1, 1, 24 * h - 5, 2, 13 * h, 1]), true);
+        let ordered = order(Moments::Exact(vec![23 * h, 24 * h - 1, 1, 24 * h - 5, 2, 13 * h, 1]), true, None);
         let at = |ns: i64| since(ns, 23 * h);
         let expected = [0.0, at(24 * h - 1), at(24 * h + 1), f64::NAN, at(24 * h + 2), at(37 * h), at(48 * h + 1)];
         assert_eq!(format!("{:?}", ordered.seconds), format!("{expected:?}"));
@@ -176,7 +231,7 @@ mod tests {
 
     #[test]
     fn long_decimals_are_taken_as_doubles() {
-        let ordered = order(Moments::Float(vec![0.1, 0.1 + 0.2, f64::NAN, 0.2, 0.5]), false);
+        let ordered = order(Moments::Float(vec![0.1, 0.1 + 0.2, f64::NAN, 0.2, 0.5]), false, None);
         assert_eq!(ordered.seconds[1], (0.1 + 0.2) - 0.1);
         assert_eq!((ordered.unreadable.count, ordered.backward.count, ordered.origin_ns), (1, 1, 100_000_000));
         assert!(ordered.seconds[3].is_nan() && ordered.seconds[4] == 0.4);

@@ -85,7 +85,7 @@ impl<'a> Quick<'a> {
         row.missing.clear();
         let mut at = 0;
         let mut present = false;
-        // A comment may be indented.
+        // A comment may stand after blanks.
         if bytes.first().is_none_or(|b| matches!(b, b'#' | b'%' | b'/') || b.is_ascii_whitespace()) {
             return None;
         }
@@ -295,8 +295,16 @@ mod tests {
         assert_eq!((row.moment, row.values[0]), (stamp::iso(b"2019-11-11T17:57:05Z").unwrap(), -1.5));
         assert_eq!(quick.read(b"2019-11-11,,", &mut row), Some(12));
         assert_eq!(row.missing, [1, 2]);
-        for other in ["#,1,2\n", "soon,1,2\n", "2019-11-11,1\n", "2019-11-11,1,2,3\n", "2019-11-11,1e3,2\n", ",,\n", ""]
-        {
+        for other in [
+            "#,1,2\n",
+            " #,1,2\n",
+            "soon,1,2\n",
+            "2019-11-11,1\n",
+            "2019-11-11,1,2,3\n",
+            "2019-11-11,1e3,2\n",
+            ",,\n",
+            "",
+        ] {
             assert_eq!(quick.read(other.as_bytes(), &mut row), None, "{other}");
         }
         let quoted = Quick::new(layout(Some(b'"')), &reading, Some(&timing), &[None, Some(0), None], [3, 3]).unwrap();

@@ -213,6 +213,9 @@ impl<'a> Editor<'a> {
             if time.date_column == Some(column) {
                 return time.write_like(new.seconds, &self.cell(record, spans, column));
             }
+            if self.track.track_column() == Some(column) {
+                return self.cell(record, spans, column);
+            }
             let value = new.cells.iter().find(|(c, _)| *c == column).map(|(_, v)| *v);
             self.number(value).unwrap_or_else(|| self.nothing())
         };
@@ -240,29 +243,43 @@ pub(super) fn patched(record: &[u8], spans: &[Span], layout: Layout, edits: &[(u
                 }
                 count += 1;
             }
-            line.extend_from_slice(text.as_bytes());
+            put(&mut line, text, layout, true);
             continue;
         };
         let within = inner(span.of(record), layout.quote);
         let (start, end) = (span.start as usize + within.start, span.start as usize + within.end);
+        let at = line.len() + span.start as usize - done;
         line.extend_from_slice(&record[done..start]);
         align(&mut line, end - start, text.len());
         let bare = span.of(record).trim_ascii().len() == end - start;
-        match (layout.delimiter, layout.quote) {
-            // A decimal comma between commas.
-            (Delimiter::Byte(delimiter), Some(quote)) if bare && text.as_bytes().contains(&delimiter) => {
-                line.extend([&[quote], text.as_bytes(), &[quote]].concat());
-            }
-            _ => line.extend_from_slice(text.as_bytes()),
+        // A quote is one at the start of a cell or after blanks, not after a stray carriage return.
+        let padding = &span.of(record)[..within.start];
+        if bare && padding.iter().any(|b| !matches!(b, b' ' | b'\t')) && wants_quotes(text, layout).is_some() {
+            line.truncate(at);
         }
+        put(&mut line, text, layout, bare);
         done = end;
     }
     line.extend_from_slice(&record[done..]);
     line
 }
 
-/// Takes or adds blanks before a cell whose text changes its length, where two or more stand there: such cells are
-/// aligned to the right.
+/// Adds the text of a cell: in quotes where it has none yet and a decimal comma would part it.
+fn put(line: &mut Vec<u8>, text: &str, layout: Layout, bare: bool) {
+    match wants_quotes(text, layout).filter(|_| bare) {
+        Some(quote) => line.extend([&[quote], text.as_bytes(), &[quote]].concat()),
+        None => line.extend_from_slice(text.as_bytes()),
+    }
+}
+
+/// The quote that a text needs to be one cell, and does not have.
+fn wants_quotes(text: &str, layout: Layout) -> Option<u8> {
+    let Delimiter::Byte(delimiter) = layout.delimiter else { return None };
+    let text = text.as_bytes();
+    layout.quote.filter(|quote| text.contains(&delimiter) && text.first() != Some(quote))
+}
+
+/// Keeps cells aligned to the right: takes or adds blanks before one whose length changes, where two or more are.
 fn align(line: &mut Vec<u8>, old: usize, new: usize) {
     let blanks = line.iter().rev().take_while(|b| **b == b' ').count();
     if blanks < 2 {
@@ -360,12 +377,12 @@ mod tests {
 
     #[test]
     fn a_decimal_comma_between_commas_is_quoted() {
-        let source = Source::BuiltIn { name: "wildpoint:test", bytes: Arc::from(&b"t,x\n0,\"1,5\"\n1,2\n"[..]) };
+        let source = Source::BuiltIn { name: "wildpoint:test", bytes: Arc::from(&b"t,x\n0,\"1,5\"\n1,2\n2\n"[..]) };
         let track = load(&source, &LoadOptions { decimal_comma: Some(true), ..LoadOptions::default() }).unwrap();
         let cell = |row| CellChange { row, column: 1, value: Some(2.5) };
         let mut out = Vec::new();
-        rewrite(&track, &Changes { cells: vec![cell(0), cell(1)], rows: Vec::new() }, &mut out).unwrap();
-        assert_eq!(String::from_utf8(out).unwrap(), "t,x\n0,\"2,5\"\n1,\"2,5\"\n");
+        rewrite(&track, &Changes { cells: vec![cell(0), cell(1), cell(2)], rows: Vec::new() }, &mut out).unwrap();
+        assert_eq!(String::from_utf8(out).unwrap(), "t,x\n0,\"2,5\"\n1,\"2,5\"\n2,\"2,5\"\n");
     }
 
     #[test]

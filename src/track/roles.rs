@@ -4,7 +4,7 @@ use super::body::Numbers;
 use super::head::Head;
 use super::sniff::{Look, look};
 use super::timing::Timing;
-use super::{ColumnKind, LoadOptions, names, printable};
+use super::{ColumnKind, LoadOptions, names, printable, targets};
 use crate::error::{Error, Result};
 
 /// Which columns are parsed as numbers, and why.
@@ -16,6 +16,8 @@ pub(crate) struct Roles {
     pub(crate) channels: Option<Vec<usize>>,
     /// The truth column that the user named.
     pub(crate) truth: Option<usize>,
+    /// The column that tells tracks apart.
+    pub(crate) track: Option<usize>,
     /// For each column, its kind by the first rows, for the columns that are not parsed.
     pub(crate) unread: Vec<ColumnKind>,
 }
@@ -26,14 +28,21 @@ pub(crate) struct Roles {
 /// [`Error::Usage`] for a column that is not there, or named for two roles.
 pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions) -> Result<Roles> {
     let find = |name: &String| names::find(head.names.iter().map(String::as_str), name);
-    let mut channels = options.channels.iter().map(find).collect::<Result<Vec<_>>>()?;
+    let mut channels =
+        options.channels.iter().map(|name| targets::base(head, options, name)).collect::<Result<Vec<_>>>()?;
     let mut seen = vec![false; head.names.len()];
     channels.retain(|c| !std::mem::replace(&mut seen[*c], true));
     let truth = options.truth.as_ref().map(find).transpose()?;
+    let track = targets::column(head, options)?;
     let is_time = |c: usize| timing.is_some_and(|t| t.column == c || t.date_column == Some(c));
-    let twice = channels.iter().copied().find(|c| is_time(*c) || truth == Some(*c)).or(truth.filter(|t| is_time(*t)));
+    let told = channels.iter().copied().find(|c| is_time(*c) || truth == Some(*c) || track == Some(*c));
+    let twice = told.or(truth.filter(|t| is_time(*t) || track == truth)).or(track.filter(|t| is_time(*t)));
     if let Some(column) = twice {
-        let role = if is_time(column) { "the time" } else { "the truth column" };
+        let role = match column {
+            c if is_time(c) => "the time",
+            c if track == Some(c) => "what tells tracks apart (--track)",
+            _ => "the truth column",
+        };
         return Err(Error::usage(
             format!("`{}` is {role} and cannot be another thing too", printable(&head.names[column])),
             "name other columns, or another time with --time",
@@ -41,7 +50,7 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
     }
     let unread: Vec<ColumnKind> = (0..head.names.len()).map(|c| kind_by_sample(head, c)).collect();
     let wanted = |c: usize| {
-        if is_time(c) {
+        if is_time(c) || track == Some(c) {
             false
         } else if truth == Some(c) {
             true
@@ -58,7 +67,7 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
             next - 1
         })
     });
-    Ok(Roles { slots: slots.collect(), channels: (!channels.is_empty()).then_some(channels), truth, unread })
+    Ok(Roles { slots: slots.collect(), channels: (!channels.is_empty()).then_some(channels), truth, track, unread })
 }
 
 impl Roles {

@@ -79,6 +79,7 @@ impl Samples {
 impl Remembered {
     fn of(channel: &Channel, time: &TimeAxis) -> Self {
         let series = Series::of(channel, time);
+        // (Of a target, rows are always told: its samples are not those of all rows.)
         let present = series.rows.map(|rows| Present {
             rows: rows.into_owned(),
             t: series.t.into_owned(),
@@ -103,7 +104,26 @@ impl<'a> Series<'a> {
     /// The present samples of `channel`.
     #[must_use]
     pub fn of(channel: &'a Channel, time: &'a TimeAxis) -> Self {
-        Self::new(&time.seconds, &channel.values)
+        match &channel.target {
+            None => Self::new(&time.seconds, &channel.values),
+            Some(target) => Self::of_rows(&target.rows, &time.seconds, &channel.values),
+        }
+    }
+
+    /// The samples of `rows` (ascending) at which time and value are finite; `seconds` has a time for every row of
+    /// the file, `values` one for each of `rows`.
+    fn of_rows(rows: &[u32], seconds: &[f64], values: &[f64]) -> Self {
+        let (mut kept, mut t, mut y) = (Vec::new(), Vec::new(), Vec::new());
+        for (&row, &value) in rows.iter().zip(values) {
+            let time = seconds.get(row as usize).copied().unwrap_or(f64::NAN);
+            if time.is_finite() && value.is_finite() {
+                kept.push(row);
+                t.push(time);
+                y.push(value);
+            }
+        }
+        let interval = nominal_interval(&t);
+        Self { rows: Some(Cow::Owned(kept)), t: Cow::Owned(t), y: Cow::Owned(y), interval }
     }
 
     /// The samples at which both slices are finite. `t` must increase over them.
@@ -244,7 +264,7 @@ mod tests {
             seconds: vec![f64::NAN, 1.0, 2.0, 4.0],
         };
         for values in [vec![1.0; 4], vec![1.0, f64::NAN, 2.0, 3.0], vec![f64::NAN; 4]] {
-            let channel = Channel { name: String::new(), unit: String::new(), column: 0, values };
+            let channel = Channel { name: String::new(), unit: String::new(), column: 0, target: None, values };
             let (now, later) = (Samples::of(&channel, &time), Samples::later());
             let (a, b) = (now.series(&channel, &time), later.series(&channel, &time));
             assert_eq!((&a.t, &a.y, a.interval.to_bits()), (&b.t, &b.y, b.interval.to_bits()));

@@ -57,11 +57,12 @@ pub(crate) fn refuse_long_form(head: &Head, path: &Path) -> Result<()> {
         what: format!("a long table: each row gives one {} of the series in `{}`", name(value), name(series)),
         help: format!(
             "pivot it to one row for each `{}` with a column for each series, for example in pandas: \
-             pivot(index='{}', columns='{}', values='{}')",
+             pivot(index='{}', columns='{}', values='{}'); or read each series as a track of its own: --track '{}'",
             name(time),
             name(time),
             name(series),
-            name(value)
+            name(value),
+            name(series)
         ),
     })
 }

@@ -13,6 +13,10 @@ use sha2::{Digest, Sha256};
 use super::{Encoding, Source};
 use crate::error::{Error, Result};
 
+/// A small packed file can unpack to a thousand times its size: more than this is no record that was packed by mistake
+/// or by somebody who means harm, but one to be unpacked on purpose.
+const MOST_UNPACKED: u64 = 4 << 30;
+
 /// The text of a source as the tokeniser takes it: ASCII-compatible bytes, unpacked, without byte order mark.
 #[derive(Debug)]
 pub(crate) struct Text<'a> {
@@ -42,6 +46,12 @@ pub(crate) fn stored(source: &Source) -> Result<Cow<'_, [u8]>> {
         Source::File(path) if path.is_dir() => {
             Err(Error::input(path, "this is a folder", "name one of the files in it"))
         }
+        // A pipe or a device could give bytes without an end, and never the same ones twice.
+        Source::File(path) if std::fs::metadata(path).is_ok_and(|m| !m.is_file()) => Err(Error::input(
+            path,
+            "this is a pipe or a device, not a file",
+            "save the record as a file first; samples that keep arriving are for `wildpoint stream`",
+        )),
         Source::File(path) => std::fs::read(path).map(Cow::Owned).map_err(Error::io("read", path)),
     }
 }
@@ -126,8 +136,12 @@ fn unpacked<'a>(stored: &'a [u8], path: &Path) -> Result<(Cow<'a, [u8]>, bool)> 
     }
     let mut bytes = Vec::new();
     MultiGzDecoder::new(stored)
+        .take(MOST_UNPACKED + 1)
         .read_to_end(&mut bytes)
         .map_err(|e| Error::input(path, format!("the gzip stream is broken: {e}"), "copy or fetch the file again"))?;
+    if bytes.len() as u64 > MOST_UNPACKED {
+        return Err(Error::input(path, "it unpacks to more than 4 GiB", "unpack it (gunzip -k) if that is what it is"));
+    }
     Ok((Cow::Owned(bytes), true))
 }
 

@@ -4,26 +4,27 @@
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 /// How long after an `Esc` the rest of a sequence may come, in milliseconds.
-pub(super) const ESC_TIMEOUT_MS: u64 = 30;
+pub const ESC_TIMEOUT_MS: u64 = 30;
 
 /// No sequence is as long as this: a report of the mouse has three numbers of at most five digits.
 const LONGEST: usize = 21;
 
 /// Puts torn sequences together.
 #[derive(Debug, Default)]
-pub(super) struct Normaliser {
+pub struct Normaliser {
     /// What came since the `Esc` (without it), while a sequence may still go on.
     pending: Option<String>,
 }
 
 impl Normaliser {
     /// True while an `Esc` waits for what may follow; [`Normaliser::flush`] ends the wait.
-    pub(super) fn waits(&self) -> bool {
+    #[must_use]
+    pub fn waits(&self) -> bool {
         self.pending.is_some()
     }
 
     /// Takes a key in; gives the keys that were meant.
-    pub(super) fn feed(&mut self, key: KeyEvent) -> Vec<KeyEvent> {
+    pub fn feed(&mut self, key: KeyEvent) -> Vec<KeyEvent> {
         if let Some(letter) = after_esc(key) {
             let mut keys = self.feed(escape());
             keys.extend(self.feed(letter));
@@ -57,7 +58,7 @@ impl Normaliser {
     }
 
     /// Nothing followed in time: an `Esc` alone was an `Esc`, half a sequence is dropped.
-    pub(super) fn flush(&mut self) -> Option<KeyEvent> {
+    pub fn flush(&mut self) -> Option<KeyEvent> {
         self.pending.take().filter(String::is_empty).map(|_| escape())
     }
 }

@@ -42,8 +42,10 @@ impl Judge {
     #[must_use]
     pub fn under(model: &Model, plan: usize, setup: Setup) -> Self {
         let state = &model.channels[plan];
+        let channel = |plan: usize| &model.track.channels[model.channels[plan].channel];
+        let of_target = |i: usize| channel(i).same_target(channel(plan));
         let alike = |i: usize| i == plan || model.session.plans[i].setup.same_detection(&setup);
-        let shares = |i: &usize| setup.together() && alike(*i);
+        let shares = |i: &usize| setup.together() && of_target(*i) && alike(*i);
         let member = |i: usize| (model.channels[i].channel, Arc::clone(&model.channels[i].samples));
         Self {
             track: Arc::clone(&model.track),

@@ -2,7 +2,7 @@
 
 use super::{Detection, Place};
 use crate::repair;
-use crate::track::{Series, Track, lost_samples};
+use crate::track::{Channel, Series, Track, lost_samples};
 
 /// The missing samples just before a present one.
 pub(super) struct GapPlaces {
@@ -17,45 +17,87 @@ pub(super) struct GapPlaces {
 const MOST_NEW_ROWS: usize = 4;
 
 /// The gaps inside segments that `fill_gaps` wants filled.
-pub(super) fn gaps_to_fill(track: &Track, series: &Series<'_>, detection: &Detection) -> Vec<GapPlaces> {
+pub(super) fn gaps_to_fill(
+    track: &Track,
+    channel: &Channel,
+    series: &Series<'_>,
+    detection: &Detection,
+) -> Vec<GapPlaces> {
     let with_rows = match detection.setup.repair.word(repair::FILL_GAPS.key) {
         "cells" => false,
         "rows" => true,
         _ => return Vec::new(),
     };
+    let room = if with_rows { channel.rows(track).saturating_mul(MOST_NEW_ROWS) } else { 0 };
+    let own = channel.target.as_ref().map(|t| &*t.rows);
     let seconds = &track.time.seconds;
-    let row_interval = Series::new(seconds, seconds).interval;
-    let mut room = if with_rows { track.rows.saturating_mul(MOST_NEW_ROWS) } else { 0 };
+    let mut finder = Finder { seconds, interval: row_interval(seconds, own), with_rows, room };
     let mut gaps = Vec::new();
     for segment in &detection.segments {
         for before in segment.start + 1..segment.end {
-            let mut at = Vec::new();
-            // Rows with a usable time from the present sample before the gap to the one after it.
+            // Rows (of the target) after the present sample before the gap, up to the one after it.
             let (first, last) = (series.row(before - 1), series.row(before));
-            if last == first + 1 && !with_rows {
-                continue;
-            }
-            let mut from = first;
-            for row in (first + 1..=last).filter(|&r| seconds[r].is_finite()) {
-                let step = seconds[row] - seconds[from];
-                let lost = lost_samples(step, row_interval);
-                if with_rows && lost <= room {
-                    room -= lost;
-                    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-                    at.extend((0..lost).map(|k| {
-                        let part = (k + 1) as f64 / (lost + 1) as f64;
-                        (Place::NewRow(from, k), seconds[from] + step * part)
-                    }));
+            let at = match own {
+                None => finder.places(first, (first + 1..=last, last - first)),
+                Some(rows) => {
+                    let to = |row: usize| rows.partition_point(|r| *r as usize <= row);
+                    let between = &rows[to(first)..to(last)];
+                    finder.places(first, (between.iter().map(|r| *r as usize), between.len()))
                 }
-                if row < last {
-                    at.push((Place::Cell(row), seconds[row]));
-                }
-                from = row;
-            }
+            };
             if !at.is_empty() {
                 gaps.push(GapPlaces { before, at });
             }
         }
     }
     gaps
+}
+
+/// The nominal interval of the rows that have a usable time.
+fn row_interval(seconds: &[f64], own: Option<&[u32]>) -> f64 {
+    match own {
+        None => Series::new(seconds, seconds).interval,
+        Some(rows) => {
+            let times: Vec<f64> = rows.iter().map(|r| seconds[*r as usize]).collect();
+            Series::new(&times, &times).interval
+        }
+    }
+}
+
+/// Finds the places in one gap after the other.
+struct Finder<'a> {
+    seconds: &'a [f64],
+    interval: f64,
+    with_rows: bool,
+    /// New rows that may still be made.
+    room: usize,
+}
+
+impl Finder<'_> {
+    /// The places between the present samples in row `first` and in the last of the `count` rows after it.
+    fn places(&mut self, first: usize, (rows, count): (impl Iterator<Item = usize>, usize)) -> Vec<(Place, f64)> {
+        let mut at = Vec::new();
+        if count == 1 && !self.with_rows {
+            return at;
+        }
+        let seconds = self.seconds;
+        let mut from = first;
+        for (place, row) in rows.enumerate().filter(|(_, r)| seconds[*r].is_finite()) {
+            let step = seconds[row] - seconds[from];
+            let lost = lost_samples(step, self.interval);
+            if self.with_rows && lost <= self.room {
+                self.room -= lost;
+                #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+                at.extend((0..lost).map(|k| {
+                    let part = (k + 1) as f64 / (lost + 1) as f64;
+                    (Place::NewRow(from, k), seconds[from] + step * part)
+                }));
+            }
+            if place + 1 < count {
+                at.push((Place::Cell(row), seconds[row]));
+            }
+            from = row;
+        }
+        at
+    }
 }

@@ -87,7 +87,7 @@ pub struct Outcome {
 /// How many samples of a channel are what.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 pub struct Counts {
-    /// Rows of the file.
+    /// Rows of the file (in a table of several tracks: those of the track).
     pub rows: usize,
     /// Samples with a time and a value.
     pub present: usize,

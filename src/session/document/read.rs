@@ -61,6 +61,7 @@ struct WrittenData {
     /// From here on: how the record is loaded, where the user had to say it.
     time: Option<String>,
     truth: Option<String>,
+    track: Option<String>,
     #[serde(default)]
     missing: Vec<String>,
     delimiter: Option<Spanned<String>>,
@@ -109,15 +110,27 @@ pub fn read(path: &Path) -> Result<Session> {
 }
 
 pub(in crate::session) fn read_with_texts(path: &Path) -> Result<Read> {
-    let size = std::fs::metadata(path).map_err(Error::io("read", path))?.len();
-    if size > LARGEST {
-        return Err(fault(path, None, format!("{size} bytes are too many for a session"), "is it the right file?"));
+    use std::io::Read as _;
+    let file = std::fs::File::open(path).map_err(Error::io("read", path))?;
+    // The size that a device or a growing file tells is not what it gives.
+    let mut text = String::new();
+    file.take(LARGEST + 1).read_to_string(&mut text).map_err(Error::io("read", path))?;
+    if text.len() as u64 > LARGEST {
+        let what = format!("more than {} MiB are too many for a session", LARGEST >> 20);
+        return Err(fault(path, None, what, "is it the right file?"));
     }
-    let text = std::fs::read_to_string(path).map_err(Error::io("read", path))?;
-    parse(path, &text)
+    parse_with_texts(path, &text)
 }
 
-fn parse(path: &Path, text: &str) -> Result<Read> {
+/// Reads the text of a session file that lies (or would lie) at `path`. The record itself is not opened.
+///
+/// # Errors
+/// [`Error::Session`] naming key and line for what is not understood.
+pub fn parse(path: &Path, text: &str) -> Result<Session> {
+    parse_with_texts(path, text).map(|r| r.session)
+}
+
+fn parse_with_texts(path: &Path, text: &str) -> Result<Read> {
     let at = |span: Option<Range<usize>>| span.map(|s| line_of(text, s.start));
     let broken = |e: toml::de::Error| {
         let what = format!("{}{}", key_before(text, e.span()), plain(e.message()));
@@ -194,6 +207,7 @@ impl Reader<'_> {
         let options = LoadOptions {
             time: data.time,
             truth: data.truth,
+            track: data.track,
             missing: data.missing,
             delimiter: data.delimiter.map(delimiter).transpose()?,
             decimal_comma: data.decimal_comma,

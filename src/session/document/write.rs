@@ -24,7 +24,12 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
     line(format!("sha256 = {}", quoted(&session.data.sha256)));
     line(format!("rows = {}", session.data.rows));
     let options = &session.data.options;
-    for (key, value) in [("time", &options.time), ("truth", &options.truth), ("row_check", &session.data.row_check)] {
+    for (key, value) in [
+        ("time", &options.time),
+        ("truth", &options.truth),
+        ("track", &options.track),
+        ("row_check", &session.data.row_check),
+    ] {
         if let Some(value) = value {
             line(format!("{key} = {}", quoted(value)));
         }

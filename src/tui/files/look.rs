@@ -105,6 +105,7 @@ fn of_record(preview: &Preview) -> Seen {
         ColumnKind::Time => "time",
         ColumnKind::Number => "number",
         ColumnKind::Truth => "truth",
+        ColumnKind::Track => "track",
         ColumnKind::Text => "text",
         ColumnKind::Empty => "empty",
     };

@@ -1,0 +1,218 @@
+//! Several tracks in one table: a column tells which target the row is about, each target has times of its own.
+//!
+//! A channel of such a record is one column of one target, `alt_ft@4CA1B2`: it holds the values of the target's rows
+//! alone, so that no segment, scale or repair ever reaches from one target to another, and memory does not grow
+//! with their number.
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::head::Head;
+use super::text::Text;
+use super::tokens::inner;
+use super::{Channel, ColumnKind, LoadOptions, Track, names, printable, rows};
+use crate::error::{Error, Result, nearest};
+
+/// More targets than this are no targets: a time or a measurement was named.
+const MOST: usize = 10_000;
+/// Stands for a row that names no target.
+pub(crate) const NOBODY: u32 = u32::MAX;
+/// Between the name of a column and the id of a target.
+const AT: char = '@';
+
+/// The target of a channel, in a table of several tracks.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Target {
+    /// Its id, as the file writes it.
+    pub id: String,
+    /// Its rows (from 0), ascending; [`Channel::values`] has one value for each.
+    pub rows: Arc<[u32]>,
+}
+
+/// Which rows belong to which target, in the order in which they first appear.
+#[derive(Debug, Default)]
+pub(crate) struct Targets {
+    /// For each row the index of its target, or [`NOBODY`].
+    pub(crate) of_row: Vec<u32>,
+    pub(crate) ids: Vec<String>,
+}
+
+/// The index of the column that tells tracks apart, if one was named.
+///
+/// # Errors
+/// [`Error::Usage`] for a name that is not there.
+pub(crate) fn column(head: &Head, options: &LoadOptions) -> Result<Option<usize>> {
+    options.track.as_ref().map(|name| names::find(head.names.iter().map(String::as_str), name)).transpose()
+}
+
+/// The column that a user means by the name of a channel: that of the name itself or, where tracks are told apart,
+/// of what stands before an `@`.
+///
+/// # Errors
+/// [`Error::Usage`] for a name that is not there.
+pub(crate) fn base(head: &Head, options: &LoadOptions, name: &str) -> Result<usize> {
+    let found = names::find(head.names.iter().map(String::as_str), name);
+    if found.is_ok() || options.track.is_none() {
+        return found;
+    }
+    let parts = name.char_indices().filter(|(_, c)| *c == AT).map(|(at, _)| &name[..at]);
+    parts.filter_map(|part| head.names.iter().position(|n| n == part)).next_back().map_or(found, Ok)
+}
+
+impl Targets {
+    /// Reads the ids in `column` of every row of `track`.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] where they are too many to be targets, or none.
+    pub(crate) fn read(track: &Track, text: &Text<'_>, column: usize, head: &Head, path: &Path) -> Result<Self> {
+        let mut targets = Self { of_row: Vec::with_capacity(track.rows), ids: Vec::new() };
+        let mut known: HashMap<Vec<u8>, u32> = HashMap::new();
+        rows::walk(track, text, |_, record, splitter| {
+            let raw = splitter.cells(record).get(column).map_or(&[][..], |s| s.of(record.bytes));
+            let cell = &raw[inner(raw, track.dialect.quote)];
+            let index = match known.get(cell) {
+                Some(index) => *index,
+                None if head.reading.is_marker(cell) => NOBODY,
+                None => {
+                    let index = u32::try_from(targets.ids.len()).unwrap_or(NOBODY);
+                    known.insert(cell.to_vec(), index);
+                    targets.ids.push(super::text::decoded(cell, text.encoding).into_owned());
+                    index
+                }
+            };
+            targets.of_row.push(index);
+            Ok(targets.ids.len() <= MOST)
+        })?;
+        let name = printable(&head.names[column]);
+        match targets.ids.len() {
+            0 => Err(Error::input(path, format!("no row has a `{name}`"), "name another column with --track")),
+            n if n > MOST => Err(Error::usage(
+                format!("`{name}` tells more than {MOST} tracks apart"),
+                "--track names the column of an id (a satellite, an aircraft, a station), not of a time or a value",
+            )),
+            _ => Ok(targets),
+        }
+    }
+
+    /// The channels of each target in place of those of the whole table.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] where a channel was named of a target that is not there.
+    pub(crate) fn divide(&self, channels: Vec<Channel>, head: &Head, options: &LoadOptions) -> Result<Vec<Channel>> {
+        let named = options.channels.iter().map(|name| self.named(name, head, options)).collect::<Result<Vec<_>>>()?;
+        let wanted = |column: usize, target: usize| {
+            named.is_empty() || named.iter().any(|(c, t)| *c == column && t.is_none_or(|t| t == target))
+        };
+        let mut rows: Vec<Vec<u32>> = vec![Vec::new(); self.ids.len()];
+        for (row, &target) in (0..).zip(&self.of_row) {
+            if let Some(rows) = rows.get_mut(target as usize) {
+                rows.push(row);
+            }
+        }
+        let rows: Vec<Arc<[u32]>> = rows.into_iter().map(Arc::from).collect();
+        let mut divided = Vec::new();
+        // Column by column, so that no more than one of them is in memory twice.
+        for (place, channel) in channels.into_iter().enumerate() {
+            for (target, rows) in rows.iter().enumerate().filter(|(target, _)| wanted(channel.column, *target)) {
+                let values = rows.iter().map(|&row| channel.values[row as usize]).collect();
+                let id = self.ids[target].clone();
+                let name = format!("{}{AT}{id}", channel.name);
+                let target_of = Some(Target { id, rows: Arc::clone(rows) });
+                let part =
+                    Channel { name, unit: channel.unit.clone(), column: channel.column, target: target_of, values };
+                divided.push(((target, place), part));
+            }
+        }
+        divided.sort_by_key(|(key, _)| *key);
+        Ok(divided.into_iter().map(|(_, channel)| channel).collect())
+    }
+
+    /// The column and, where one is named, the target of the name of a channel.
+    fn named(&self, name: &str, head: &Head, options: &LoadOptions) -> Result<(usize, Option<usize>)> {
+        let column = base(head, options, name)?;
+        let Some(id) = name.strip_prefix(&head.names[column]).and_then(|rest| rest.strip_prefix(AT)) else {
+            return Ok((column, None));
+        };
+        let found = self.ids.iter().position(|i| i == id);
+        found.map(|target| (column, Some(target))).ok_or_else(|| {
+            let hint = nearest(id, self.ids.iter().map(String::as_str));
+            let hint = hint.map_or(String::new(), |near| format!("did you mean {}? ", printable(near)));
+            let ids: Vec<String> = self.ids.iter().take(20).map(|i| printable(i)).collect();
+            let more = if self.ids.len() > 20 { ", …" } else { "" };
+            Error::usage(
+                format!("`{}`: there is no track `{}`", printable(name), printable(id)),
+                format!("{hint}tracks: {}{more}", ids.join(", ")),
+            )
+        })
+    }
+
+    /// What a user should know of them.
+    pub(crate) fn notes(&self, track: &Track) -> Vec<String> {
+        let nobody = self.of_row.iter().filter(|t| **t == NOBODY).count();
+        let column = track.track_column().map_or("", |c| &track.columns[c].name);
+        let mut notes = Vec::new();
+        if nobody > 0 {
+            let column = printable(column);
+            notes.push(format!("{nobody} of {} rows have no `{column}`: they are left as they are", track.rows));
+        }
+        notes
+    }
+}
+
+impl Channel {
+    /// The value of `row` (from 0): NaN where there is none, and for rows of other targets.
+    #[must_use]
+    pub fn value(&self, row: usize) -> f64 {
+        self.place(row).and_then(|place| self.values.get(place).copied()).unwrap_or(f64::NAN)
+    }
+
+    /// How many rows of the file are its own.
+    #[must_use]
+    pub fn rows(&self, track: &Track) -> usize {
+        self.target.as_ref().map_or(track.rows, |t| t.rows.len())
+    }
+
+    /// True when `row` (from 0) is one of the channel's own: all are, but in a table of several tracks.
+    #[must_use]
+    pub fn owns(&self, row: usize) -> bool {
+        self.place(row).is_some()
+    }
+
+    /// True when both are of the same target, or of a record without targets.
+    #[must_use]
+    pub fn same_target(&self, other: &Self) -> bool {
+        self.target.as_ref().map(|t| &t.id) == other.target.as_ref().map(|t| &t.id)
+    }
+
+    fn place(&self, row: usize) -> Option<usize> {
+        match &self.target {
+            None => Some(row),
+            Some(target) => target.rows.binary_search(&u32::try_from(row).ok()?).ok(),
+        }
+    }
+}
+
+impl Track {
+    /// The column that tells tracks apart, if one was named.
+    #[must_use]
+    pub fn track_column(&self) -> Option<usize> {
+        self.columns.iter().position(|c| c.kind == ColumnKind::Track)
+    }
+
+    /// True when a user who says `name` means `channel`: its own name, or that of its column.
+    #[must_use]
+    pub fn means(&self, name: &str, channel: &Channel) -> bool {
+        channel.name == name || self.columns.get(channel.column).is_some_and(|c| c.name == name)
+    }
+
+    /// The channel that goes with `channel` under this name: in a table of several tracks the column of that name, or
+    /// of the channel of that name, for the same target. (A rate that was chosen for one satellite and copied to
+    /// all is each one's own.)
+    #[must_use]
+    pub fn beside(&self, channel: &Channel, name: &str) -> Option<&Channel> {
+        let column = self.channel(name).map(|c| c.column);
+        let fits = |c: &&Channel| column.map_or_else(|| self.means(name, c), |column| c.column == column);
+        self.channels.iter().filter(|c| c.same_target(channel)).find(fits)
+    }
+}
