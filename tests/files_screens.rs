@@ -149,6 +149,11 @@ fn typing_narrows_the_list_and_enter_opens() {
     bench.key(KeyCode::Esc);
     let late = bench.news(News::Opened { ticket: 1, result: Ok(Box::new(model(Glyphs::Unicode))) });
     assert!(late.is_empty() && matches!(bench.0.overlay, Overlay::Files(_)), "back in the picker");
+    // Nor is it taken for the answer to the next request.
+    bench.key(KeyCode::Enter);
+    let late = bench.news(News::Opened { ticket: 1, result: Ok(Box::new(model(Glyphs::Unicode))) });
+    assert!(late.is_empty() && bench.frame().contains("loading radar_week_17.csv.gz"));
+    bench.key(KeyCode::Esc);
     bench.key(KeyCode::Esc);
     assert!(matches!(bench.0.overlay, Overlay::None));
 }
