@@ -162,7 +162,7 @@ mod tests {
     fn many_at_a_time_are_the_same_to_the_last_bit() {
         let n = CHUNK + 3 * LANES + 5;
         let t: Vec<f64> = (0..n).map(|i| 1.7e9 + i as f64 * 0.1 + 0.02 * (i % 3) as f64).collect();
-        let y: Vec<f64> = (0..n).map(|i| 1e6 + (i as f64 * 12.9898).sin() * 7.0).collect();
+        let y: Vec<f64> = (0..n).map(|i| (i as f64 * 12.9898).sin() * 7.0).collect();
         for order in [0, 1, 2, 5, 8] {
             let fit = Polynomial::fit_long(&t, &y, order, || Ok::<(), ()>(())).unwrap();
             let (mut residual, mut value) = (vec![0.0; n], vec![0.0; n]);
