@@ -170,7 +170,8 @@ impl Drawn {
     /// many that starting from nothing is as quick.
     fn changed_to(&self, outcome: &Outcome) -> Option<Vec<Range<usize>>> {
         let (old, new) = (&self.outcome, outcome);
-        let most = self.hidden.len() / BLOCK / 8;
+        // Of a short record even all of them are few.
+        let most = (self.hidden.len() / BLOCK / 8).max(64);
         let mut blocks: Vec<usize> = Vec::new();
         let (mut a, mut b) = (0, 0);
         loop {
