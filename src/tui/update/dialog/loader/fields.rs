@@ -49,14 +49,6 @@ pub static FIELDS: &[Field] = &[
         take: Some(|o, text| o.channels = list(text)),
     },
     Field {
-        name: "track column",
-        help: "the id that tells several tracks in one table apart",
-        text: |o| o.track.clone(),
-        step: |o, columns, by| o.track = next(&named(columns, None), o.track.clone(), by),
-        clear: |o| o.track = None,
-        take: Some(|o, text| o.track = told(text)),
-    },
-    Field {
         name: "truth column",
         help: "1 where a sample is really wild",
         text: |o| o.truth.clone(),
