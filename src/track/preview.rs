@@ -31,7 +31,7 @@ impl Preview {
     /// Loads the first `most` bytes of text of the file `path` under `options`.
     ///
     /// # Errors
-    /// As [`load`].
+    /// As [`load()`].
     pub fn of(path: &Path, options: &LoadOptions, most: u64) -> Result<Self> {
         // Looked at before it is opened: a pipe would wait for its other end.
         let about = path.metadata().map_err(Error::io("read", path))?;
@@ -52,7 +52,7 @@ impl Preview {
     /// [`Preview::of`] for a record that is in memory.
     ///
     /// # Errors
-    /// As [`load`].
+    /// As [`load()`].
     pub fn of_bytes(bytes: &[u8], options: &LoadOptions, size: u64, share: f64) -> Result<Self> {
         let source = Source::BuiltIn { name: NAME, bytes: bytes.into() };
         let track = load(&source, options)?;
