@@ -165,6 +165,22 @@ fn rows_without_an_id_are_left_alone_and_counted() {
 }
 
 #[test]
+fn a_long_table_is_divided_piece_by_piece_as_it_is_whole() {
+    // More than a megabyte, which is never in memory as a whole.
+    let mut text = String::from("time,id,x,remark\n");
+    (0..60_000).for_each(|i| text.push_str(&format!("{}.5,\"s{}\",{i},nothing to say\n", i / 7, i % 7)));
+    let folder = Folder::with(&[("long.csv", text.as_bytes())]);
+    let options = LoadOptions { track: Some("id".into()), ..LoadOptions::default() };
+    let whole = load(&Source::BuiltIn { name: "long", bytes: text.as_bytes().into() }, &options).unwrap();
+    let pieces = load(&Source::File(folder.path("long.csv")), &options).unwrap();
+    assert_eq!((&pieces.channels, &pieces.time, &pieces.sha256), (&whole.channels, &whole.time, &whole.sha256));
+    assert_eq!((pieces.channels.len(), pieces.faults.repeated_times.count), (7, 0));
+    let last = &pieces.channels[6];
+    assert_eq!((last.name.as_str(), last.ends(&pieces.time)), ("x@s6", Some((0.0, 8570.0))));
+    assert_eq!(last.value(59_996), 59_996.0);
+}
+
+#[test]
 fn times_of_day_pass_midnight_in_each_track() {
     let text = "id,time,x\na,23:59:58,1\nb,12:00:00,1\na,23:59:59,2\nb,12:00:01,2\na,00:00:00,3\nb,12:00:02,3\n";
     let source = Source::BuiltIn { name: "ids", bytes: text.as_bytes().into() };

@@ -66,6 +66,10 @@ impl Judged {
     /// none, and the sample is unchecked, for nothing was found out about it. Nor is a sample an outlier without both.
     #[must_use]
     pub fn bounded(mut self) -> Self {
+        if self.scale.len() == self.verdict.len() {
+            // [`Judged::gate`] has seen to it.
+            return self;
+        }
         for ((verdict, p), h) in self.verdict.iter_mut().zip(&mut self.expected).zip(&mut self.tolerance) {
             if p.is_finite() && h.is_finite() {
                 continue;

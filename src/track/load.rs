@@ -9,7 +9,7 @@ use super::order::{Moments, Ordered, Rows, order, sample_numbers};
 use super::roles::{Roles, assign};
 use super::shape::{refuse_long_form, refuse_other_formats};
 use super::streamed::streamed;
-use super::targets::{self, Targets};
+use super::targets::Targets;
 use super::text::{Text, path_of, sha256, stored};
 use super::timing::{Timing, choose};
 use super::tokens::inner;
@@ -75,7 +75,7 @@ pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
         Failure::Open(quote) => open_quote(&path, quote),
         Failure::Unfit(_) => Error::input(&path, "it cannot be read", "copy or fetch the file again"),
     })?;
-    understood.track(source, (sha256, Some(&text)), parsed, options, &|| Ok(Feed::of(text.body(), line_end)))
+    understood.track(source, sha256, parsed, options, &|| Ok(Feed::of(text.body(), line_end)))
 }
 
 /// What the head of a file tells of the whole.
@@ -83,8 +83,6 @@ pub(super) struct Understood {
     pub(super) head: Head,
     timing: Option<Timing>,
     roles: Roles,
-    /// The column that tells tracks apart.
-    track_column: Option<usize>,
     encoding: Encoding,
     gzip: bool,
     path: PathBuf,
@@ -102,19 +100,6 @@ fn refuse_torn_decimals(head: &Head) -> Result<()> {
     Ok(())
 }
 
-/// Divides the channels among the targets that `column` tells apart; gives the target of each row.
-fn divided(
-    track: &mut Track,
-    column: usize,
-    (text, head): (&Text<'_>, &Head),
-    options: &LoadOptions,
-) -> Result<Vec<u32>> {
-    let targets = Targets::read(track, text, column, head, &path_of(&track.source))?;
-    track.channels = targets.divide(std::mem::take(&mut track.channels), head, options)?;
-    track.notes = targets.notes(track);
-    Ok(targets.of_row)
-}
-
 /// The rows, and the moments of the time column where there is one.
 type Parsed = (Body, Option<Moments>);
 
@@ -127,15 +112,14 @@ impl Understood {
         refuse_other_formats(text.body(), path)?;
         let head = Head::of(text, options, path)?;
         refuse_torn_decimals(&head)?;
-        let track_column = targets::column(&head, options)?;
-        if track_column.is_none() {
+        if options.track.is_none() {
             refuse_long_form(&head, path)?;
         }
         let by_sample = options.time.as_deref() == Some("sample") && !head.names.iter().any(|n| n == "sample");
         let timing = if by_sample { None } else { choose(&head, options, path)? };
         let roles = assign(&head, timing.as_ref(), options)?;
         let (encoding, gzip) = (text.encoding, text.gzip);
-        Ok(Self { head, timing, roles, track_column, encoding, gzip, path: path.to_path_buf() })
+        Ok(Self { head, timing, roles, encoding, gzip, path: path.to_path_buf() })
     }
 
     /// Parses the rows of a feed that begins with the first of them and has about so many bytes; gives the feed of
@@ -172,12 +156,11 @@ impl Understood {
         Ok(((body, Some(Moments::Float(seconds))), feed))
     }
 
-    /// The track of these rows, from a source with this sum. Several tracks are told apart by the text, which is there
-    /// whenever `options` name their column.
+    /// The track of these rows.
     pub(super) fn track(
         &self,
         source: &Source,
-        (sha256, text): (String, Option<&Text<'_>>),
+        sha256: String,
         (mut body, moments): Parsed,
         options: &LoadOptions,
         again: Again<'_>,
@@ -203,11 +186,11 @@ impl Understood {
             columns,
             notes: Vec::new(),
         };
-        let of_row = match self.track_column.zip(text) {
-            Some((column, text)) => Some(divided(&mut track, column, (text, head), options)?),
+        let targets = match roles.track {
+            Some(column) => Some(Targets::divide(&mut track, column, again, (head, options))?),
             None => None,
         };
-        let of_row = of_row.as_deref();
+        let of_row = targets.as_ref().map(|t| t.of_row.as_slice());
         match (moments, of_row) {
             (Some(moments), _) => take_times(&mut track, order(moments, clock, of_row), again)?,
             (None, Some(of_row)) => track.time.seconds = sample_numbers(of_row),

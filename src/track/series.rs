@@ -79,7 +79,6 @@ impl Samples {
 impl Remembered {
     fn of(channel: &Channel, time: &TimeAxis) -> Self {
         let series = Series::of(channel, time);
-        // (Of a target, rows are always told: its samples are not those of all rows.)
         let present = series.rows.map(|rows| Present {
             rows: rows.into_owned(),
             t: series.t.into_owned(),
@@ -93,6 +92,10 @@ impl Channel {
     /// Times of the first and the last present sample, in seconds; none when there is none.
     #[must_use]
     pub fn ends(&self, time: &TimeAxis) -> Option<(f64, f64)> {
+        if let Some(target) = &self.target {
+            let series = Series::of_rows(&target.rows, &time.seconds, &self.values);
+            return series.t.first().copied().zip(series.t.last().copied());
+        }
         let present = |(t, y): (&f64, &f64)| (t.is_finite() && y.is_finite()).then_some(*t);
         let n = time.seconds.len().min(self.values.len());
         let samples = || time.seconds[..n].iter().zip(&self.values[..n]);

@@ -22,8 +22,7 @@ const UNFIT: Failure = Failure::Unfit(Unfit::Unreadable);
 /// Loads the file at `path`. None where its head does not tell how the rest is to be read, and for whatever is wrong
 /// with it: reading it whole says what. A track is the one that reading the file whole gives.
 pub(super) fn streamed(path: &Path, options: &LoadOptions) -> Option<Track> {
-    // Tracks are told apart by a second look at the text.
-    if options.track.is_some() || std::fs::metadata(path).ok().is_none_or(|m| !m.is_file() || m.len() < SMALLEST) {
+    if std::fs::metadata(path).ok().is_none_or(|m| !m.is_file() || m.len() < SMALLEST) {
         return None;
     }
     match options.encoding {
@@ -60,7 +59,7 @@ fn checked(path: &Path, check: Check, options: &LoadOptions) -> Result<Track, Fa
         Ok(feed)
     };
     let source = Source::File(path.to_path_buf());
-    understood.track(&source, (sha256, None), parsed, options, &again).map_err(|_| UNFIT)
+    understood.track(&source, sha256, parsed, options, &again).map_err(|_| UNFIT)
 }
 
 /// What the head tells, and the bytes of the byte order mark and of what stands before the rows.

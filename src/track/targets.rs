@@ -5,11 +5,11 @@
 //! with their number.
 
 use std::collections::HashMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use super::head::Head;
-use super::text::Text;
+use super::load::Again;
+use super::text::{decoded, path_of};
 use super::tokens::inner;
 use super::{Channel, ColumnKind, LoadOptions, Track, names, printable, rows};
 use crate::error::{Error, Result, nearest};
@@ -61,14 +61,29 @@ pub(crate) fn base(head: &Head, options: &LoadOptions, name: &str) -> Result<usi
 }
 
 impl Targets {
-    /// Reads the ids in `column` of every row of `track`.
+    /// Divides the channels of `track` among the targets that `column` tells apart, and says what a user should know
+    /// of them.
     ///
     /// # Errors
-    /// [`Error::Usage`] where they are too many to be targets, or none.
-    pub(crate) fn read(track: &Track, text: &Text<'_>, column: usize, head: &Head, path: &Path) -> Result<Self> {
+    /// [`Error::Usage`] where they are too many to be targets, where there is none, and where a channel was named of a
+    /// target that is not there.
+    pub(super) fn divide(
+        track: &mut Track,
+        column: usize,
+        again: Again<'_>,
+        (head, options): (&Head, &LoadOptions),
+    ) -> Result<Self> {
+        let targets = Self::read(track, column, again, head)?;
+        track.channels = targets.channels(std::mem::take(&mut track.channels), head, options)?;
+        track.notes = targets.notes(track);
+        Ok(targets)
+    }
+
+    /// Reads the ids in `column` of every row of `track`.
+    fn read(track: &Track, column: usize, again: Again<'_>, head: &Head) -> Result<Self> {
         let mut targets = Self { of_row: Vec::with_capacity(track.rows), ids: Vec::new() };
         let mut known: HashMap<Vec<u8>, u32> = HashMap::new();
-        rows::walk(track, text, |_, record, splitter| {
+        rows::walk_feed(track, &mut again()?, |_, record, splitter| {
             let raw = splitter.cells(record).get(column).map_or(&[][..], |s| s.of(record.bytes));
             let cell = &raw[inner(raw, track.dialect.quote)];
             let index = match known.get(cell) {
@@ -77,7 +92,7 @@ impl Targets {
                 None => {
                     let index = u32::try_from(targets.ids.len()).unwrap_or(NOBODY);
                     known.insert(cell.to_vec(), index);
-                    targets.ids.push(super::text::decoded(cell, text.encoding).into_owned());
+                    targets.ids.push(decoded(cell, track.dialect.encoding).into_owned());
                     index
                 }
             };
@@ -86,7 +101,11 @@ impl Targets {
         })?;
         let name = printable(&head.names[column]);
         match targets.ids.len() {
-            0 => Err(Error::input(path, format!("no row has a `{name}`"), "name another column with --track")),
+            0 => Err(Error::input(
+                path_of(&track.source),
+                format!("no row has a `{name}`"),
+                "name another column with --track",
+            )),
             n if n > MOST => Err(Error::usage(
                 format!("`{name}` tells more than {MOST} tracks apart"),
                 "--track names the column of an id (a satellite, an aircraft, a station), not of a time or a value",
@@ -96,10 +115,7 @@ impl Targets {
     }
 
     /// The channels of each target in place of those of the whole table.
-    ///
-    /// # Errors
-    /// [`Error::Usage`] where a channel was named of a target that is not there.
-    pub(crate) fn divide(&self, channels: Vec<Channel>, head: &Head, options: &LoadOptions) -> Result<Vec<Channel>> {
+    fn channels(&self, channels: Vec<Channel>, head: &Head, options: &LoadOptions) -> Result<Vec<Channel>> {
         let named = options.channels.iter().map(|name| self.named(name, head, options)).collect::<Result<Vec<_>>>()?;
         let wanted = |column: usize, target: usize| {
             named.is_empty() || named.iter().any(|(c, t)| *c == column && t.is_none_or(|t| t == target))
@@ -147,8 +163,7 @@ impl Targets {
         })
     }
 
-    /// What a user should know of them.
-    pub(crate) fn notes(&self, track: &Track) -> Vec<String> {
+    fn notes(&self, track: &Track) -> Vec<String> {
         let nobody = self.of_row.iter().filter(|t| **t == NOBODY).count();
         let column = track.track_column().map_or("", |c| &track.columns[c].name);
         let mut notes = Vec::new();

@@ -84,10 +84,10 @@ fn carry(before: &Session, session: &mut Session, track: &Track) -> Kept {
         };
         let own = old.setup != plan.setup || !old.decisions.is_empty();
         plan.setup = old.setup.clone();
-        let values = track.channel(&plan.channel).map(|c| c.values.as_slice()).unwrap_or_default();
+        let channel = track.channel(&plan.channel);
         let there = |row: u32| {
-            let at = |v: &[f64]| v.get(row as usize).is_some_and(|v| v.is_finite());
-            at(values) && at(&track.time.seconds)
+            let timely = track.time.seconds.get(row as usize).is_some_and(|t| t.is_finite());
+            timely && channel.is_some_and(|c| c.value(row as usize).is_finite())
         };
         for (row, decision) in old.decisions.iter().filter(|(row, _)| same_rows && there(*row)) {
             plan.decisions.set(row, Some(decision.clone()));
