@@ -207,11 +207,39 @@ impl Session {
     }
 }
 
+/// A path without folders that it enters only to leave them again: it is read by people, and from it the names of
+/// outputs are made. A link is kept with the `..` after it, which leads to where the link points.
+fn tidied(path: &std::path::Path) -> PathBuf {
+    use std::path::Component;
+    let mut out = PathBuf::new();
+    for part in path.components() {
+        let entered = matches!(out.components().next_back(), Some(Component::Normal(_)));
+        if part == Component::ParentDir && entered && !out.is_symlink() {
+            out.pop();
+        } else {
+            out.push(part);
+        }
+    }
+    if out.as_os_str().is_empty() { PathBuf::from(".") } else { out }
+}
+
 /// The folder a path lies in, `.` for a bare name.
 #[must_use]
 pub fn folder_of(path: &std::path::Path) -> PathBuf {
     match path.parent() {
         Some(p) if !p.as_os_str().is_empty() => p.to_path_buf(),
         _ => PathBuf::from("."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_enters_no_folder_to_leave_it_again() {
+        let given = ["/a/b/../../c/d.csv", "../c/d.csv", "a/../d.csv", "d.csv"];
+        let made = given.map(|p| tidied(std::path::Path::new(p)).display().to_string());
+        assert_eq!(made, ["/c/d.csv", "../c/d.csv", "d.csv", "d.csv"]);
     }
 }

@@ -58,6 +58,7 @@ pub mod theme;
 pub mod update;
 pub mod view;
 mod wire;
+mod words;
 
 /// How the workbench looks.
 #[derive(Debug, Clone, Copy)]

@@ -282,7 +282,7 @@ fn a_changed_option_is_looked_at_and_taken_with_enter() {
 fn the_picker_corrects_how_its_choice_is_loaded() {
     let mut bench = picker(Glyphs::Unicode);
     bench.key(KeyCode::Tab);
-    assert!(bench.frame().contains("only records are loaded in one way or another"), "{}", bench.frame());
+    assert!(bench.frame().contains("a session says itself how its record is loaded"), "{}", bench.frame());
     bench.key(KeyCode::Down);
     let effects = bench.key(KeyCode::Tab);
     assert_eq!(effects, [Effect::Files(Task::Look(Glance::file(DEMO.into())))]);

@@ -19,7 +19,6 @@ mod writer;
 
 pub use files::folder;
 pub use find::Found;
-pub(super) use find::counted;
 
 /// How long a frame may wait for the disk: what the screen shows has been written, unless that takes longer.
 const PATIENCE: Duration = Duration::from_millis(100);

@@ -7,6 +7,7 @@ use crossbeam_channel::Sender;
 
 use super::message::{Message, Output, OutputKind, Written};
 use super::model::Model;
+use super::words::counted;
 use crate::error::{Error, Result};
 use crate::job::Worker;
 use crate::plot::Drawn;
@@ -146,7 +147,7 @@ fn save(track: &Track, mut session: Session, errand: &Errand) -> Result<String> 
     let channels = session.plans.iter().map(|p| p.channel.as_str()).collect::<Vec<_>>().join(", ");
     let decisions: usize = session.plans.iter().map(|p| p.decisions.len()).sum();
     let path = errand.path.display();
-    Ok(format!("saved {path}: {channels}; {} flagged, {decisions} decisions", analysed.flagged()))
+    Ok(format!("saved {path}: {channels}; {} flagged, {}", analysed.flagged(), counted(decisions, "decision")))
 }
 
 /// Writes outputs of a result, all of them or none; gives a few words for the user.
@@ -174,8 +175,11 @@ pub fn export(track: &Track, session: &Session, outputs: &[Output], overwrite: b
         [Output { kind: OutputKind::Cleaned, path }] => {
             let n = changes.cells.len();
             let s = if n == 1 { "" } else { "s" };
-            let rows =
-                if changes.rows.is_empty() { String::new() } else { format!(", {} rows added", changes.rows.len()) };
+            let rows = if changes.rows.is_empty() {
+                String::new()
+            } else {
+                format!(", {} added", counted(changes.rows.len(), "row"))
+            };
             format!("wrote {}: {n} cell{s} changed{rows}", path.display())
         }
         [only] => format!("wrote {}: {}", only.path.display(), only.kind.name()),

@@ -7,9 +7,10 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
-use super::action::Panel;
+use super::action::{Action, Panel};
 use super::layout::{self, LEAST};
 use super::model::{Model, Overlay, Tone};
+use super::words;
 
 mod card;
 mod compare;
@@ -115,7 +116,7 @@ fn toast(model: &Model, area: Rect, buffer: &mut Buffer) {
             Tone::Warning => theme.warning,
             Tone::Error => theme.error,
         };
-        said(&toast.text, style)
+        said(&words::in_force(&model.keys, &toast.text), style)
     } else if let Some(error) = &model.state().error {
         said(error, theme.error)
     } else if let Some(range) = model.selection() {
@@ -144,8 +145,10 @@ fn range_words(model: &Model, range: &std::ops::Range<usize>) -> String {
     let series = model.series();
     let (first, last) = (series.row(range.start) + 1, series.row(range.end - 1) + 1);
     let flags = super::update::decide::flags_in(model, range).len();
-    let counts = format!("{} samples, {} flags", thousands(range.len()), thousands(flags));
-    format!("rows {first} to {last}: {counts} · a r x space o, Esc leaves")
+    let count = |n: usize, noun: &str| format!("{} {noun}{}", thousands(n), words::plural(n));
+    let counts = format!("{}, {}", count(range.len(), "sample"), count(flags, "flag"));
+    let (keys, back) = (words::of_range(&model.keys), words::key(&model.keys, Action::Back));
+    format!("rows {first} to {last}: {counts} · {keys}, {back} leaves")
 }
 
 /// Why nothing is flagged, where the settings do not allow it. (Where there is a panel for the settings, it says so

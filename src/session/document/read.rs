@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::param::{Kind, Param, Settings, Value, find};
 use crate::repair;
 use crate::review::{Decision, Decisions, Ruling};
-use crate::session::{Data, Plan, Recorded, Session, Setup, folder_of, method_of_id};
+use crate::session::{Data, Plan, Recorded, Session, Setup, folder_of, method_of_id, tidied};
 use crate::track::{LoadOptions, Source};
 
 /// A session file larger than this is none.
@@ -202,7 +202,7 @@ impl Reader<'_> {
         };
         let source = match Source::built_in(&data.file) {
             Some(source) => source,
-            None => Source::File(folder_of(self.path).join(data.file)),
+            None => Source::File(tidied(&folder_of(self.path).join(data.file))),
         };
         let options = LoadOptions {
             time: data.time,

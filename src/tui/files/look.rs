@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::super::words::counted;
 use super::is_session;
 use crate::error::Result;
 use crate::session;
@@ -63,12 +64,11 @@ fn of_session(path: &Path) -> Result<Seen> {
         Source::File(record) => record.display().to_string(),
         Source::BuiltIn { name, .. } => (*name).to_owned(),
     };
-    let mut lines = vec![format!("session on {}", printable(&record)), format!("{} rows", session.data.rows)];
+    let mut lines = vec![format!("session on {}", printable(&record)), counted(session.data.rows, "row")];
     for plan in &session.plans {
         let decided = match plan.decisions.len() {
             0 => String::new(),
-            1 => ", 1 decision".into(),
-            n => format!(", {n} decisions"),
+            n => format!(", {}", counted(n, "decision")),
         };
         lines.push(format!("{}: {}{decided}", printable(&plan.channel), plan.setup.method.about().id));
     }
@@ -81,12 +81,9 @@ fn of_session(path: &Path) -> Result<Seen> {
 fn of_record(preview: &Preview) -> Seen {
     let track = &preview.track;
     let (rows, estimated) = preview.rows();
-    let rows = if estimated {
-        format!("about {} rows (its beginning was read)", rounded(rows))
-    } else {
-        format!("{rows} rows")
-    };
-    let mut lines = vec![format!("{rows}, {} columns", track.columns.len())];
+    let rows =
+        if estimated { format!("about {} rows (its beginning was read)", rounded(rows)) } else { counted(rows, "row") };
+    let mut lines = vec![format!("{rows}, {}", counted(track.columns.len(), "column"))];
     lines.push(crate::report::layout(track));
     let usable: Vec<f64> = track.time.seconds.iter().copied().filter(|t| t.is_finite()).collect();
     let from = usable.first().map_or("none is usable".into(), |t| format!("from {}", track.time.full_label(*t)));

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::super::model::{Model, Tone};
+use super::super::words::counted;
 use super::super::{Look, Opening};
 use super::{Request, is_session};
 use crate::error::Result;
@@ -68,7 +69,7 @@ impl Kept {
             (n, true) => format!(", {n} without a sample now dropped"),
             (n, false) => format!(", {n} dropped: the rows are not the same"),
         };
-        format!("loaded again; settings kept, {} decisions kept{lost}", self.decisions)
+        format!("loaded again; settings kept, {} kept{lost}", counted(self.decisions, "decision"))
     }
 }
 

@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use super::super::words::counted;
 use super::files::{ENDING, take};
 use super::writer::sha256_of;
 use crate::session::Session;
@@ -128,9 +129,4 @@ fn read(file: impl Read, most: u64) -> Option<Journal> {
 fn for_people(time: SystemTime) -> String {
     let stamp = jiff::Timestamp::try_from(time).unwrap_or(jiff::Timestamp::UNIX_EPOCH);
     stamp.strftime("%Y-%m-%d %H:%M UTC").to_string()
-}
-
-/// A number with its noun.
-pub(in crate::tui) fn counted(n: usize, noun: &str) -> String {
-    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }

@@ -2,6 +2,7 @@
 
 use super::super::message::Effect;
 use super::super::model::{Model, Tone};
+use super::super::words::plural;
 use super::review::mark_at;
 use super::{commit, decide};
 use crate::review::{Change, Decision, Ruling};
@@ -90,8 +91,4 @@ pub(super) fn epoch(model: &mut Model) -> Vec<Effect> {
     decide::after(model, true, &mut text);
     model.say(Tone::Done, text);
     effects
-}
-
-fn plural(n: usize) -> &'static str {
-    if n == 1 { "" } else { "s" }
 }

@@ -4,6 +4,7 @@ use super::super::action::Action;
 use super::super::consensus::{Consensus, Question};
 use super::super::message::Effect;
 use super::super::model::{LowerKind, Model, Tone};
+use super::super::words::counted;
 use super::navigate;
 use crate::plot::step;
 
@@ -70,7 +71,8 @@ pub(super) fn polled(model: &mut Model, generation: u64, plan: usize, consensus:
 fn in_words(consensus: &Consensus) -> String {
     let (ballot, agreed) = (&consensus.ballot, consensus.agreed.len());
     let half = ballot.half();
-    let mut text = format!("{} methods; {half} or more flag {agreed} samples · g h next of them", ballot.methods());
+    let agreed = counted(agreed, "sample");
+    let mut text = format!("{} methods; {half} or more flag {agreed} · g h next of them", ballot.methods());
     if !consensus.left_out.is_empty() {
         let left_out: Vec<String> = consensus.left_out.iter().map(|(id, why)| format!("{id} ({why})")).collect();
         text.push_str(&format!(" · left out: {}", left_out.join(", ")));

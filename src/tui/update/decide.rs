@@ -6,6 +6,7 @@ use super::super::action::Action;
 use super::super::message::Effect;
 use super::super::model::{Model, Tone, Unit};
 use super::super::plot::FlagState;
+use super::super::words::counted;
 use super::review::{Stops, mark_at, neighbour};
 use super::{commit, navigate};
 use crate::plot::state;
@@ -87,10 +88,6 @@ fn targets(model: &Model) -> Targets {
         _ => series.row_of(cursor).map_or_else(String::new, |row| format!("row {}", row + 1)),
     };
     Targets { positions, what, goes_on: true }
-}
-
-fn counted(n: usize, noun: &str) -> String {
-    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
 /// A decision on the sample at `position`; none when nothing changes.

@@ -7,6 +7,7 @@ use super::super::action::Action;
 use super::super::hit::{Spot, spot};
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Tone};
+use super::super::words::{self, counted};
 use super::{act as perform, navigate, overlay};
 
 /// How much of the view a step of the wheel pans.
@@ -119,7 +120,8 @@ fn select(model: &mut Model, (column, row): (u16, u16)) {
         model.review.anchor.get_or_insert(anchor);
         model.state_mut().cursor = cursor;
         if let Some(range) = model.selection() {
-            let text = format!("{} samples selected · a r x space o are about them, Esc leaves", range.len());
+            let (keys, back) = (words::of_range(&model.keys), words::key(&model.keys, Action::Back));
+            let text = format!("{} selected · {keys} are about them, {back} leaves", counted(range.len(), "sample"));
             model.say(Tone::Done, text);
         }
     }

@@ -65,7 +65,8 @@ pub(super) fn centre(model: &mut Model, x: f64) {
 
 pub(super) fn pan(model: &mut Model, share: f64) {
     let view = model.state().view.panned(share).within(model.whole());
-    if view == model.state().view {
+    // With a range open the cursor still moves, and the line is needed for what is selected.
+    if view == model.state().view && model.review.anchor.is_none() {
         model.say(Tone::Warning, "this is the end of the record");
     }
     // Panning is no view to come back to: `Z` leads back to where it started from.

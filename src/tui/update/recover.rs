@@ -2,9 +2,10 @@
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::super::journal::{Found, counted};
+use super::super::journal::Found;
 use super::super::message::{Effect, Fate};
 use super::super::model::{Model, Overlay, Tone};
+use super::super::words::counted;
 use crate::session::journal;
 
 /// A key while `offered` are offered: the first is asked about.

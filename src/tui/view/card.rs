@@ -157,7 +157,9 @@ fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>, nar
     let Some(drawn) = &model.state().drawn else { return Line::default() };
     let judged = &drawn.outcome.detection.judged;
     let verdict = judged.verdict().get(i).copied().unwrap_or(Verdict::Missing);
-    let mut text = format!("  {} says {}", drawn.outcome.detection.setup.method.about().id, verdict.word());
+    // In fewer words where they would run out of the panel: half a word looks like a whole one.
+    let says = if narrow { ":" } else { " says" };
+    let mut text = format!("  {}{says} {}", drawn.outcome.detection.setup.method.about().id, verdict.word());
     if let Some(d) = judged.directions().get(i) {
         let (forth, back) = if narrow { ("fwd", "bwd") } else { ("forward", "backward") };
         let both = [(forth, d.forward), (back, d.backward)];
@@ -167,24 +169,27 @@ fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>, nar
             both.iter().filter_map(|(name, d)| d.map(|d| format!("{name} {}", Direction::word(d)))).collect()
         };
         if !words.is_empty() {
-            text.push_str(&format!(": {}", words.join(", ")));
+            text.push_str(if narrow { ", " } else { ": " });
+            text.push_str(&words.join(", "));
         }
     }
     if let Some(run) = drawn.outcome.run(i) {
         match run.length {
             1 => text.push_str("  isolated"),
+            n if narrow => text.push_str(&format!("  patch {}/{n}", i - run.start + 1)),
             n => text.push_str(&format!("  {} of a patch of {n}", i - run.start + 1)),
         }
     }
-    let outcome = written(drawn, series, i, mark);
+    let outcome = written(drawn, series, i, mark, narrow);
     Line::from(vec![Span::styled(format!(" → {outcome}"), theme.text), Span::styled(text, theme.dim)])
 }
 
 /// What the cleaned file will have.
-fn written(drawn: &Drawn, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> String {
+fn written(drawn: &Drawn, series: &Series<'_>, i: usize, mark: Option<&Mark>, narrow: bool) -> String {
     let wild = mark.map_or(Verdict::Normal, Mark::effective) == Verdict::Outlier;
     match drawn.outcome.fix(i) {
         Some(fix) if wild && fix.is_finite() => format!("repaired to {}", short(fix)),
+        Some(_) if wild && narrow => "removed, cell empty".into(),
         Some(_) if wild => "removed, the cell stays empty".into(),
         _ if wild => "…".into(),
         _ => format!("kept as {}", short(series.y[i])),
@@ -224,7 +229,7 @@ fn remarks(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) ->
     if let Some(drawn) = &model.state().drawn {
         let restarts = drawn.outcome.detection.judged.restarts();
         if restarts.iter().any(|r| r.at == i) {
-            let text = " the model was lost and started again here: a change of the trajectory, or a long patch";
+            let text = " started again here: a change of the trajectory, or a long patch";
             spans.push(Span::styled(text, theme.warning));
         }
     }

@@ -23,9 +23,10 @@ pub(super) fn draw(model: &Model, dialog: &Dialog, area: Rect, buffer: &mut Buff
         Dialog::Unsaved(request) => {
             let name = fit(&printable(&request.source.name()), 40);
             let path = model.file.clone().unwrap_or_else(|| super::super::update::default_session(&model.track.source));
-            let save = format!("save to {}, then open {name}", printable(&path.display().to_string()));
+            let path = end_of(&printable(&path.display().to_string()), 38);
+            let (save, drop) = (format!("save to {path}, then open it"), format!("drop them and open {name}"));
             let first = "The session has changes that are not saved.";
-            question(model, "not saved", first, &[("w", &save), ("d", "drop them"), ("Esc", "stay")], area, buffer);
+            question(model, "not saved", first, &[("w", &save), ("d", &drop), ("Esc", "stay")], area, buffer);
         }
         Dialog::Over(Over { path, .. }) => {
             let first = format!("{} is there already.", printable(&path.display().to_string()));
@@ -55,7 +56,7 @@ fn wait(model: &Model, waiting: &Waiting, area: Rect, buffer: &mut Buffer) {
 }
 
 /// Text cut at its beginning: of a path, the end says most.
-fn end_of(text: &str, width: usize) -> String {
+pub(super) fn end_of(text: &str, width: usize) -> String {
     use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
     if text.width() <= width {
         return text.to_owned();

@@ -8,6 +8,7 @@ use ratatui::widgets::Widget;
 use super::super::action::Panel;
 use super::super::model::LowerKind;
 use super::super::plot::{HistogramPlot, Pyramid, ResidualPlot, StepPlot, TracePlot, VotesPlot};
+use super::super::words::plural;
 use super::plots::Plots;
 use super::{NOT_JUDGED, compare, heading_named, short, thousands};
 use crate::plot::{Drawn, Histogram, Tally};
@@ -112,7 +113,8 @@ impl Plots<'_> {
         let cuts = state.drawn.as_deref().map_or(0, |d| d.outcome.detection.segments.len().saturating_sub(1));
         let mut words = vec![self.dim(format!("every {} s, log scale  ", short(interval)))];
         if all.gaps > 0 {
-            let text = format!("{} {} lost in {} gaps  ", glyphs.lost(), thousands(all.lost), thousands(all.gaps));
+            let (lost, gaps) = (thousands(all.lost), thousands(all.gaps));
+            let text = format!("{} {lost} lost in {gaps} gap{}  ", glyphs.lost(), plural(all.gaps));
             words.push(Words::styled(text, theme.warning));
         }
         if cuts > 0 {

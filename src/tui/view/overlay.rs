@@ -10,6 +10,7 @@ use tui_input::Input;
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
 use super::super::plot::Glyphs;
 use super::super::update::{narrowed, note, value_text};
+use super::files::end_of;
 use super::{clear, fit};
 use crate::track::printable;
 
@@ -189,10 +190,12 @@ fn confirm(model: &Model, area: Rect, buffer: &mut Buffer) {
         Line::from(vec![Span::styled(format!("{k:5}"), model.theme.key), Span::styled(words, model.theme.text)])
     };
     let changes = model.history.len();
+    let room = usize::from(inside.width).saturating_sub("w    save to  and quit".len());
     let lines = vec![
         Line::styled(format!("The session has changes that are not saved ({changes} to undo)."), model.theme.warning),
         Line::default(),
-        key("w", format!("save to {} and quit", path.display())),
+        // The end of a path says most, and what the key does is after it.
+        key("w", format!("save to {} and quit", end_of(&printable(&path.display().to_string()), room))),
         key("d", "drop them and quit".into()),
         key("Esc", "stay".into()),
     ];

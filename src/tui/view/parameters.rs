@@ -5,11 +5,12 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
-use super::super::action::Panel;
+use super::super::action::{Action, Panel};
 use super::super::advice::{Advice, Step};
 use super::super::model::{Knob, Model};
 use super::super::update::value_text;
-use super::{clear, compare, fit, heading, short, thousands};
+use super::super::words::key;
+use super::{clear, compare, fit, heading, thousands};
 use crate::param::Value;
 use crate::plot::Drawn;
 use crate::track::printable;
@@ -169,7 +170,8 @@ fn advice_rows(model: &Model, advice: &Advice, width: usize) -> Vec<(String, boo
     let words = match (sweep.suggestion, sweep.suggested()) {
         (Some(value), Some(p)) => {
             let count = if p.least == p.most { p.most.to_string() } else { format!("{} to {}", p.least, p.most) };
-            format!("f takes {} {value}: {count} flagged from {} to {}", sweep.key, short(p.from), short(p.to))
+            let f = key(&model.keys, Action::Suggested);
+            format!("{f} takes {} {value}: {count} flagged from {:.1} to {:.1}", sweep.key, p.from, p.to)
         }
         _ => "no clear gap between noise and wild points".to_owned(),
     };

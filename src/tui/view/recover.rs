@@ -4,8 +4,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::super::journal::{Found, counted};
+use super::super::journal::Found;
 use super::super::model::Model;
+use super::super::words::counted;
 use super::overlay::{popup, rows};
 use crate::track::printable;
 

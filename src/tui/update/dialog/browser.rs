@@ -95,8 +95,11 @@ fn correct(model: &mut Model, mut browser: Browser) -> Vec<Effect> {
             loader::form(model, source, Some(Box::new(Dialog::Browser(browser))))
         }
         chosen => {
-            let what =
-                if chosen.is_some() { "only records are loaded in one way or another" } else { "nothing is chosen" };
+            let what = match chosen.map(|entry| entry.kind) {
+                Some(FileKind::Session) => "a session says itself how its record is loaded: Enter opens it",
+                Some(_) => "only records are loaded in one way or another",
+                None => "nothing is chosen",
+            };
             browser.said = Some((what.into(), true));
             keep(model, Dialog::Browser(browser))
         }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::super::super::files::{Request, Task};
 use super::super::super::message::Effect;
 use super::super::super::model::{Dialog, Model, Overlay, Tone, Waiting};
+use super::super::super::words::counted;
 use super::browser::in_a_line;
 use super::{effect, keep};
 use crate::error::Result;
@@ -74,9 +75,8 @@ fn replace(model: &mut Model, new: Model) -> Vec<Effect> {
     model.keep_screen_of(old);
     if model.toast.is_none() {
         let name = printable(&model.track.source.name());
-        let channels = model.channels.len();
-        let s = if channels == 1 { "" } else { "s" };
-        model.say(Tone::Done, format!("opened {name}: {} rows, {channels} channel{s}", model.track.rows));
+        let (rows, channels) = (counted(model.track.rows, "row"), counted(model.channels.len(), "channel"));
+        model.say(Tone::Done, format!("opened {name}: {rows}, {channels}"));
     }
     let path = model.file.clone().or_else(|| model.track.source.path().map(std::path::Path::to_path_buf));
     let mut effects = vec![Effect::Files(Task::Begin), Effect::Analyse(model.shown)];
