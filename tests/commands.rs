@@ -139,6 +139,22 @@ fn actions_are_run_by_a_few_letters_of_their_names() {
 }
 
 #[test]
+fn a_character_that_means_nothing_says_where_the_keys_are_and_hints_name_those_in_force() {
+    let mut bench = Bench::new();
+    let before = bench.model.revision;
+    bench.keys("$");
+    assert_eq!(bench.toast(), "$ does nothing here · ? shows the keys");
+    bench.keys("gq");
+    assert_eq!(bench.toast(), "gq does nothing here · ? shows the keys");
+    assert_eq!(bench.model.revision, before);
+    let mut bench = Bench::configured("[keys]\nundo = [\"ctrl-u\"]\nnext-flag = [\"S\"]\n");
+    bench.keys("a");
+    assert!(bench.toast().ends_with("· Ctrl-U undo"), "{}", bench.toast());
+    bench.keys("jr");
+    assert!(bench.toast().contains("S goes to the next"), "{}", bench.toast());
+}
+
+#[test]
 fn a_command_that_is_spelt_out_goes_before_every_action() {
     // `q` is a command; letters of it are in many names.
     let mut bench = Bench::new();

@@ -189,6 +189,29 @@ fn signals_give_the_terminal_back() {
 }
 
 #[test]
+fn a_panic_gives_the_terminal_back_before_it_speaks() {
+    let folder = Folder::with_demo();
+    let terminal = Terminal::start(&folder.path(""), "demo.csv", COMPACT, &[("WILDPOINT_PANIC", "1")]);
+    let (status, raw) = terminal.end();
+    assert_eq!(status, 101);
+    assert_restored(&raw);
+    let text = String::from_utf8_lossy(&raw);
+    let (back, said) = (text.rfind("\x1b[?1049l").unwrap(), text.find("a panic on demand").unwrap());
+    assert!(back < said, "the message is on the screen of the shell");
+}
+
+#[test]
+fn keys_come_from_the_terminal_when_standard_input_is_a_file() {
+    let folder = Folder::with_demo();
+    let mut terminal = Terminal::start_fed(&folder.path(""), "demo.csv", "demo.csv", COMPACT);
+    terminal.wait_for("flagged");
+    terminal.keys("a");
+    terminal.wait_for("accepted row 61");
+    terminal.keys(":q!\r");
+    assert_eq!(terminal.end().0, 0);
+}
+
+#[test]
 fn a_resize_redraws_and_too_small_a_window_says_so() {
     let (_folder, mut terminal) = workbench(COMPACT);
     terminal.resize(WIDE);

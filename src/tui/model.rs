@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::action::Panel;
+use super::action::{Action, Panel};
 use super::advice::{Advice, Steps};
 use super::consensus::Polling;
 use super::files::Request;
 use super::keys::Keys;
 use super::plot::{Axis, Glyphs, View};
 use super::theme::Theme;
+use super::words;
 use crate::param::Param;
 use crate::repair;
 use crate::review::History;
@@ -325,6 +326,12 @@ impl Model {
         kept.reverse();
         document.plans.retain(|_| kept.pop().unwrap_or(true));
         document
+    }
+
+    /// The key in force of an action, for hints.
+    #[must_use]
+    pub fn key(&self, action: Action) -> String {
+        words::key(&self.keys, action)
     }
 
     /// Says something in the footer.

@@ -59,6 +59,8 @@ impl Screen {
     pub(super) fn draw(&mut self, model: &Model) -> Result<()> {
         queue!(self.0.backend_mut(), BeginSynchronizedUpdate).map_err(failed)?;
         self.0.draw(|frame| view(model, frame)).map_err(failed)?;
+        #[cfg(debug_assertions)]
+        panic_on_demand();
         execute!(self.0.backend_mut(), EndSynchronizedUpdate).map_err(failed)
     }
 
@@ -127,6 +129,12 @@ pub(super) fn leave() {
         let _ = std::io::stdout().flush();
         let _ = disable_raw_mode();
     }
+}
+
+/// What tests of a panic need, in builds for tests alone.
+#[cfg(debug_assertions)]
+fn panic_on_demand() {
+    assert!(std::env::var_os("WILDPOINT_PANIC").is_none(), "a panic on demand");
 }
 
 /// A panic gives the terminal back before it speaks.

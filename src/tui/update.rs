@@ -1,11 +1,14 @@
 //! The one place where the state of the workbench changes: a message comes in, effects go out. No input or output
 //! and no clock here.
 
+use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
 use super::action::{Action, Panel};
 use super::keys::Meaning;
 use super::message::{Effect, Message};
 use super::model::{Knob, Model, Overlay, Picker, PickerKind, Prompt, PromptKind, Tone};
 use crate::error::Error;
+use crate::track::printable;
 
 mod channels;
 mod command;
@@ -61,7 +64,10 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
                     model.prefix = Some(first);
                     Vec::new()
                 }
-                Meaning::Nothing => Vec::new(),
+                Meaning::Nothing => {
+                    no_action(model, key, prefix);
+                    Vec::new()
+                }
             }
         }
         Message::Mouse(event) => mouse::act(model, event),
@@ -97,6 +103,17 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
             Vec::new()
         }
     }
+}
+
+/// Says that a typed character means nothing. Keys without one (and what is left of a torn sequence) stay silent.
+fn no_action(model: &mut Model, key: KeyEvent, prefix: Option<char>) {
+    let KeyCode::Char(c) = key.code else { return };
+    if key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT) {
+        return;
+    }
+    let typed: String = prefix.into_iter().chain([c]).collect();
+    let help = model.key(Action::Help);
+    model.say(Tone::Warning, format!("{} does nothing here · {help} shows the keys", printable(&typed)));
 }
 
 /// Does what an action means.
@@ -312,7 +329,8 @@ fn interrupt(model: &mut Model) -> Vec<Effect> {
         return quit(model);
     }
     model.interrupted = true;
-    model.say(Tone::Warning, "Ctrl-C again to quit (or q)");
+    model
+        .say(Tone::Warning, format!("{} again to quit (or {})", model.key(Action::Interrupt), model.key(Action::Quit)));
     Vec::new()
 }
 

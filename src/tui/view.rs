@@ -116,7 +116,7 @@ fn toast(model: &Model, area: Rect, buffer: &mut Buffer) {
             Tone::Warning => theme.warning,
             Tone::Error => theme.error,
         };
-        said(&words::in_force(&model.keys, &toast.text), style)
+        said(&toast.text, style)
     } else if let Some(error) = &model.state().error {
         said(error, theme.error)
     } else if let Some(range) = model.selection() {

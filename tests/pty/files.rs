@@ -47,7 +47,7 @@ fn another_record_is_picked_tuned_and_reported_on() {
     assert!(report.contains("<h1>other.csv</h1>") && report.contains("k=6.0"));
     // The knob was turned and nothing saved: another record is asked about, and the answer saves first.
     terminal.keys(":open demo.csv\r");
-    terminal.wait_for("then open demo.csv");
+    terminal.wait_for("open demo.csv");
     terminal.keys("w");
     terminal.wait_until("the first record again", |screen| title(screen).contains("demo.csv · vx_mps"));
     terminal.settle();
@@ -94,9 +94,9 @@ fn columns_are_corrected_and_the_work_stays() {
     terminal.wait_for("the sample number");
     terminal.wait_for("sample number)");
     terminal.keys("\r");
-    terminal.wait_for("then open demo.csv");
+    terminal.wait_for("open demo.csv");
     terminal.keys("d");
-    terminal.wait_for("loaded again; settings kept, 1 decisions kept");
+    terminal.wait_for("loaded again; settings kept, 1 decision kept");
     terminal.settle();
     terminal.keys(":w again.toml\r");
     terminal.wait_for("saved again.toml");

@@ -48,9 +48,21 @@ fn pty_size((cols, rows): (u16, u16)) -> PtySize {
 impl Terminal {
     /// Starts `wildpoint` with these words in `folder`.
     pub(crate) fn start(folder: &Path, words: &str, size: (u16, u16), environment: &[(&str, &str)]) -> Self {
-        let pair = native_pty_system().openpty(pty_size(size)).unwrap();
         let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_wildpoint"));
         command.args(words.split_whitespace());
+        Self::spawn(command, folder, size, environment)
+    }
+
+    /// Starts it with its standard input from `input`, a file in `folder`, and not from the terminal.
+    pub(crate) fn start_fed(folder: &Path, words: &str, input: &str, size: (u16, u16)) -> Self {
+        let mut command = CommandBuilder::new("sh");
+        let line = format!("exec '{}' {words} < {input}", env!("CARGO_BIN_EXE_wildpoint"));
+        command.args(["-c", &line]);
+        Self::spawn(command, folder, size, &[])
+    }
+
+    fn spawn(mut command: CommandBuilder, folder: &Path, size: (u16, u16), environment: &[(&str, &str)]) -> Self {
+        let pair = native_pty_system().openpty(pty_size(size)).unwrap();
         command.cwd(folder);
         ["NO_COLOR", "COLORTERM", "LC_ALL", "LC_CTYPE"].into_iter().for_each(|name| command.env_remove(name));
         let state = TempDir::new().unwrap();

@@ -135,7 +135,7 @@ mod tests {
         // Row 3 has no value any more.
         assert_eq!((plan.decisions.len(), plan.decisions.get(1)), (1, Some(&decision)));
         assert!(again.unsaved() && again.channels[0].touched && !again.channels[1].touched);
-        assert!(again.toast.is_some_and(|t| t.text.contains("1 decisions kept, 1 without a sample now dropped")));
+        assert!(again.toast.is_some_and(|t| t.text.contains("1 decision kept, 1 without a sample now dropped")));
         // Without a header there is a row more: decisions would be about other samples.
         let options = LoadOptions { header: Some(false), channels: vec!["#2".into()], ..LoadOptions::default() };
         let other = opened("0,1,5\n1,2,6\n2,-99,7\n3,4,8\n", options, Some(Keep::of(&model)));

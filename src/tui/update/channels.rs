@@ -1,5 +1,6 @@
 //! What is done to every channel at once: settings, and the decision about one epoch.
 
+use super::super::action::Action;
 use super::super::message::Effect;
 use super::super::model::{Model, Tone};
 use super::super::words::plural;
@@ -38,7 +39,8 @@ pub(super) fn settings_to_all(model: &mut Model) -> Vec<Effect> {
     }
     let effects = commit(model, Edit::Several(edits));
     let id = source.method.about().id;
-    let mut text = format!("{id} with its settings and repair: {n} other channel{} · u undo", plural(n));
+    let mut text =
+        format!("{id} with its settings and repair: {n} other channel{} · {} undo", plural(n), model.key(Action::Undo));
     if without_rate.is_empty() {
         model.say(Tone::Done, text);
     } else {
@@ -54,7 +56,14 @@ pub(super) fn epoch(model: &mut Model) -> Vec<Effect> {
     let cursor = model.state().cursor;
     let row = model.series().row_of(cursor).and_then(|r| u32::try_from(r).ok());
     let Some(row) = row.filter(|_| mark_at(model, cursor).is_some()) else {
-        model.say(Tone::Warning, "no flag under the cursor: n goes to the next, o flags this sample by hand");
+        model.say(
+            Tone::Warning,
+            format!(
+                "no flag under the cursor: {} goes to the next, {} flags this sample by hand",
+                model.key(Action::NextFlag),
+                model.key(Action::ByHand)
+            ),
+        );
         return Vec::new();
     };
     let waiting = model.review.waiting.take_if(|(plan, r, _)| (*plan, *r) == (model.shown, row));
@@ -87,7 +96,7 @@ pub(super) fn epoch(model: &mut Model) -> Vec<Effect> {
         return Vec::new();
     }
     let effects = commit(model, Edit::Several(edits));
-    text.push_str(" · u undo");
+    text.push_str(&format!(" · {} undo", model.key(Action::Undo)));
     decide::after(model, true, &mut text);
     model.say(Tone::Done, text);
     effects

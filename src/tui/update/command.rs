@@ -158,7 +158,7 @@ fn set(model: &mut Model, rest: &str) -> Result<Vec<Effect>, String> {
         return Err(":set KEY VALUE, :set k 4.5 say".into());
     };
     let effects = tune::set_key(model, key.trim(), value.trim())?;
-    model.say(Tone::Done, format!("{} {} · u undo", key.trim(), value.trim()));
+    model.say(Tone::Done, format!("{} {} · {} undo", key.trim(), value.trim(), model.key(Action::Undo)));
     Ok(effects)
 }
 

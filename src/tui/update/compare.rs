@@ -27,6 +27,7 @@ fn flagged(drawn: &Drawn) -> Vec<u32> {
 }
 
 fn pin(model: &mut Model) {
+    let [next, back, unpin] = [Action::NextDifference, Action::AdoptPinned, Action::Pin].map(|a| model.key(a));
     let state = model.state_mut();
     if state.pinned.take().is_some() {
         model.say(Tone::Done, "A is no longer pinned; the result on the screen stays");
@@ -39,7 +40,7 @@ fn pin(model: &mut Model) {
     let setup = drawn.outcome.detection.setup.clone();
     let flagged = flagged(&drawn);
     let text = format!(
-        "A is {} with {} flagged: go on tuning B · g d next difference, g b back to A, B unpins",
+        "A is {} with {} flagged: go on tuning B · {next} next difference, {back} back to A, {unpin} unpins",
         setup.method.about().id,
         flagged.len()
     );
@@ -59,7 +60,10 @@ pub(super) fn refresh(model: &mut Model, plan: usize) {
 fn step(model: &mut Model, forward: bool) {
     let state = model.state();
     let Some(pinned) = &state.pinned else {
-        model.say(Tone::Warning, "nothing is pinned: B pins the result on the screen as A");
+        model.say(
+            Tone::Warning,
+            format!("nothing is pinned: {} pins the result on the screen as A", model.key(Action::Pin)),
+        );
         return;
     };
     let Some(sides) = &pinned.sides else {
@@ -88,7 +92,10 @@ fn step(model: &mut Model, forward: bool) {
 /// A's setup comes back as one edit. Nothing is pinned then: there would be no difference left.
 fn adopt(model: &mut Model) -> Vec<Effect> {
     let Some(pinned) = model.state_mut().pinned.take() else {
-        model.say(Tone::Warning, "nothing is pinned: B pins the result on the screen as A");
+        model.say(
+            Tone::Warning,
+            format!("nothing is pinned: {} pins the result on the screen as A", model.key(Action::Pin)),
+        );
         return Vec::new();
     };
     let before = model.plan().setup.clone();
@@ -101,6 +108,9 @@ fn adopt(model: &mut Model) -> Vec<Effect> {
     let edit = Edit::Setup { plan, before: Box::new(before), after: Box::new(pinned.setup) };
     // In an envelope: it is not joined to steps of the same knob before it.
     let effects = commit(model, Edit::Several(vec![edit]));
-    model.say(Tone::Done, format!("A is back: {id} with its settings; no longer pinned · u undo"));
+    model.say(
+        Tone::Done,
+        format!("A is back: {id} with its settings; no longer pinned · {} undo", model.key(Action::Undo)),
+    );
     effects
 }

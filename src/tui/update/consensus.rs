@@ -32,7 +32,7 @@ fn toggle(model: &mut Model) -> Vec<Effect> {
     if effects.is_empty()
         && let Some(consensus) = model.state().consensus.as_deref()
     {
-        let text = in_words(consensus);
+        let text = in_words(model, consensus);
         model.say(Tone::Done, text);
     }
     effects
@@ -61,18 +61,22 @@ pub(super) fn polled(model: &mut Model, generation: u64, plan: usize, consensus:
     }
     model.polling = None;
     if plan == model.shown && model.lower.kind == LowerKind::Consensus {
-        let text = in_words(&consensus);
+        let text = in_words(model, &consensus);
         model.say(Tone::Done, text);
     }
     model.channels[plan].consensus = Some(std::sync::Arc::new(*consensus));
 }
 
 /// Who was asked, what they agree on, and who was left out.
-fn in_words(consensus: &Consensus) -> String {
+fn in_words(model: &Model, consensus: &Consensus) -> String {
     let (ballot, agreed) = (&consensus.ballot, consensus.agreed.len());
     let half = ballot.half();
     let agreed = counted(agreed, "sample");
-    let mut text = format!("{} methods; {half} or more flag {agreed} · g h next of them", ballot.methods());
+    let mut text = format!(
+        "{} methods; {half} or more flag {agreed} · {} next of them",
+        ballot.methods(),
+        model.key(Action::NextAgreed)
+    );
     if !consensus.left_out.is_empty() {
         let left_out: Vec<String> = consensus.left_out.iter().map(|(id, why)| format!("{id} ({why})")).collect();
         text.push_str(&format!(" · left out: {}", left_out.join(", ")));
@@ -82,8 +86,10 @@ fn in_words(consensus: &Consensus) -> String {
 
 fn next_agreed(model: &mut Model) {
     let Some(consensus) = model.state().consensus.clone() else {
-        let text =
-            if model.polling.is_some() { "the methods are still being asked" } else { "C asks all methods first" };
+        let text = match model.polling {
+            Some(_) => "the methods are still being asked".into(),
+            None => format!("{} asks all methods first", model.key(Action::Consensus)),
+        };
         model.say(Tone::Warning, text);
         return;
     };

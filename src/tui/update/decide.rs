@@ -127,9 +127,13 @@ fn decide(model: &mut Model, ruling: Option<Ruling>) -> Vec<Effect> {
     let targets = targets(model);
     if targets.positions.is_empty() {
         let text = if model.review.anchor.is_some() {
-            "no flag in the range: o flags all of its samples by hand"
+            format!("no flag in the range: {} flags all of its samples by hand", model.key(Action::ByHand))
         } else {
-            "no flag under the cursor: n goes to the next, o flags this sample by hand"
+            format!(
+                "no flag under the cursor: {} goes to the next, {} flags this sample by hand",
+                model.key(Action::NextFlag),
+                model.key(Action::ByHand)
+            )
         };
         model.say(Tone::Warning, text);
         return Vec::new();
@@ -140,7 +144,7 @@ fn decide(model: &mut Model, ruling: Option<Ruling>) -> Vec<Effect> {
     let positions = targets.positions.iter().copied().filter(|&p| !spare || !is_suspect(model, p));
     let changes: Vec<Change> = positions.filter_map(|p| change(model, p, ruling)).collect();
     let effects = make(model, changes);
-    let mut text = format!("{} {} · u undo", word(ruling), targets.what);
+    let mut text = format!("{} {} · {} undo", word(ruling), targets.what, model.key(Action::Undo));
     if spare {
         text.push_str(&format!(" · not {}", counted(spared, "suspect")));
     }
@@ -183,7 +187,7 @@ fn toggle(model: &mut Model) -> Vec<Effect> {
     let ruling = if targets.positions.iter().all(accepted) { Ruling::Normal } else { Ruling::Outlier };
     let changes = targets.positions.iter().filter_map(|&p| change(model, p, Some(ruling))).collect();
     let effects = make(model, changes);
-    let mut text = format!("{} {} · u undo", word(Some(ruling)), targets.what);
+    let mut text = format!("{} {} · {} undo", word(Some(ruling)), targets.what, model.key(Action::Undo));
     after(model, false, &mut text);
     model.say(Tone::Done, text);
     effects
@@ -196,7 +200,12 @@ fn by_hand(model: &mut Model) -> Vec<Effect> {
             range.clone().filter(|p| !decided(p)).filter_map(|p| change(model, p, Some(Ruling::Outlier))).collect();
         let n = changes.len();
         let effects = make(model, changes);
-        let mut text = format!("flagged by hand: {} of {} selected · u undo", n, counted(range.len(), "sample"));
+        let mut text = format!(
+            "flagged by hand: {} of {} selected · {} undo",
+            n,
+            counted(range.len(), "sample"),
+            model.key(Action::Undo)
+        );
         after(model, false, &mut text);
         model.say(Tone::Done, text);
         return effects;
@@ -205,13 +214,20 @@ fn by_hand(model: &mut Model) -> Vec<Effect> {
     let (ruling, text) = match mark_at(model, cursor).as_ref().and_then(state) {
         Some(FlagState::ByHand) => (None, "no longer flagged by hand"),
         Some(FlagState::Unreviewed | FlagState::Accepted) => {
-            model.say(Tone::Warning, "already flagged: a accepts it, r rejects it");
+            model.say(
+                Tone::Warning,
+                format!(
+                    "already flagged: {} accepts it, {} rejects it",
+                    model.key(Action::Accept),
+                    model.key(Action::Reject)
+                ),
+            );
             return Vec::new();
         }
         Some(FlagState::Rejected | FlagState::Suspect) | None => (Some(Ruling::Outlier), "flagged by hand"),
     };
     let Some(change) = change(model, cursor, ruling) else { return Vec::new() };
-    let mut text = format!("{text}: row {} · u undo", change.row + 1);
+    let mut text = format!("{text}: row {} · {} undo", change.row + 1, model.key(Action::Undo));
     let effects = make(model, vec![change]);
     after(model, false, &mut text);
     model.say(Tone::Done, text);
@@ -228,7 +244,8 @@ fn in_view(model: &mut Model, ruling: Option<Ruling>) -> Vec<Effect> {
         model.say(Tone::Warning, "no flag in view to decide on");
         return Vec::new();
     }
-    let mut text = format!("{} {} in view · u undo", word(ruling), counted(changes.len(), "flag"));
+    let mut text =
+        format!("{} {} in view · {} undo", word(ruling), counted(changes.len(), "flag"), model.key(Action::Undo));
     let effects = make(model, changes);
     after(model, false, &mut text);
     model.say(Tone::Done, text);

@@ -1,5 +1,6 @@
 //! Edits of the document: made, taken back, made again.
 
+use super::super::action::Action;
 use super::super::message::Effect;
 use super::super::model::{Model, Tone};
 use super::{describe, navigate, tune};
@@ -76,7 +77,8 @@ pub(super) fn undo(model: &mut Model) -> Vec<Effect> {
         model.say(Tone::Warning, "nothing to undo");
         return Vec::new();
     };
-    say(model, &edit, "undone", "U redo")
+    let back = format!("{} redo", model.key(Action::Redo));
+    say(model, &edit, "undone", &back)
 }
 
 pub(super) fn redo(model: &mut Model) -> Vec<Effect> {
@@ -84,7 +86,8 @@ pub(super) fn redo(model: &mut Model) -> Vec<Effect> {
         model.say(Tone::Warning, "nothing to redo");
         return Vec::new();
     };
-    say(model, &edit, "done again", "u undo")
+    let back = format!("{} undo", model.key(Action::Undo));
+    say(model, &edit, "done again", &back)
 }
 
 /// Undoes or redoes until so many edits are in force.
@@ -102,8 +105,9 @@ pub(super) fn go_back_to(model: &mut Model, edits: usize) -> Vec<Effect> {
     };
     let effects = say(model, &edit, "", "");
     let steps = model.history.len().abs_diff(from);
-    let (verb, back) = if forth { ("done again", "u undo") } else { ("undone", "U redo") };
-    model.say(Tone::Done, format!("{steps} {verb} · {back} one by one · J journal"));
+    let (verb, way, back) = if forth { ("done again", Action::Undo, "undo") } else { ("undone", Action::Redo, "redo") };
+    let (key, journal) = (model.key(way), model.key(Action::Journal));
+    model.say(Tone::Done, format!("{steps} {verb} · {key} {back} one by one · {journal} journal"));
     effects
 }
 

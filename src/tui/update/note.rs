@@ -1,5 +1,6 @@
 //! Notes on decisions: free words, or a reason from a short list with words after it.
 
+use super::super::action::Action;
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Prompt, PromptKind, Tone, Unit};
 use super::commit;
@@ -100,7 +101,7 @@ pub(super) fn set(model: &mut Model, text: &str) -> Vec<Effect> {
         [(_, row)] => format!("row {}", row + 1),
         several => format!("{} decisions", several.len()),
     };
-    model.say(Tone::Done, format!("note on {on} · u undo"));
+    model.say(Tone::Done, format!("note on {on} · {} undo", model.key(Action::Undo)));
     effects
 }
 

@@ -140,7 +140,7 @@ fn next_lower(model: &mut Model) {
         LowerKind::Steps => "steps of time from sample to sample",
         LowerKind::Consensus => "how many methods flag each sample",
     };
-    model.say(Tone::Done, format!("{words} · R next picture"));
+    model.say(Tone::Done, format!("{words} · {} next picture", model.key(Action::NextLower)));
 }
 
 fn log_scale(model: &mut Model) {

@@ -2,6 +2,7 @@
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
+use super::super::action::Action;
 use super::super::journal::Found;
 use super::super::message::{Effect, Fate};
 use super::super::model::{Model, Overlay, Tone};
@@ -65,7 +66,7 @@ fn take(model: &mut Model, found: Found) -> Vec<Effect> {
     }
     let are = if found.changes == 1 { "is" } else { "are" };
     let what = counted(found.changes, "change");
-    model.say(Tone::Done, format!("{what} {are} back, not saved yet · u undoes one by one"));
+    model.say(Tone::Done, format!("{what} {are} back, not saved yet · {} undoes one by one", model.key(Action::Undo)));
     let fate = Fate::Taken { changes: found.changes };
     vec![Effect::Offered { path: found.path, fate }, Effect::Analyse(model.shown)]
 }

@@ -113,12 +113,14 @@ pub(super) fn neighbour(model: &Model, forward: bool, stops: Stops) -> Option<(u
 fn go(model: &mut Model, forward: bool, stops: Stops) {
     let Some((position, wrapped)) = neighbour(model, forward, stops) else {
         let text = match (model.state().queue.is_empty(), stops) {
-            (_, Stops::Conflicts) => "no decision is against what the method says now",
-            (true, _) => "no flags under these settings",
-            (false, Stops::Undecided) => "every flag has been decided on",
-            (false, Stops::Suspects) => "no suspect that nobody decided on",
-            (false, Stops::Flags) => "no flags, only suspects: g n goes to the next",
-            (false, Stops::All) => "no other flag",
+            (_, Stops::Conflicts) => "no decision is against what the method says now".to_owned(),
+            (true, _) => "no flags under these settings".into(),
+            (false, Stops::Undecided) => "every flag has been decided on".into(),
+            (false, Stops::Suspects) => "no suspect that nobody decided on".into(),
+            (false, Stops::Flags) => {
+                format!("no flags, only suspects: {} goes to the next", model.key(Action::NextSuspect))
+            }
+            (false, Stops::All) => "no other flag".into(),
         };
         model.say(Tone::Warning, text);
         return;

@@ -1,5 +1,6 @@
 //! Turning the knobs: method, parameters, repair.
 
+use super::super::action::Action;
 use super::super::advice::BY_ITSELF;
 use super::super::message::Effect;
 use super::super::model::{Knob, Model, PromptKind, Tone};
@@ -72,7 +73,7 @@ pub(super) fn step(model: &mut Model, steps: i64) -> Vec<Effect> {
                 return Vec::new();
             }
             let effects = set_up(model, with_value(&setup, knob, next));
-            model.say(Tone::Done, format!("{} {now} → {next} · u undo", knob.name()));
+            model.say(Tone::Done, format!("{} {now} → {next} · {} undo", knob.name(), model.key(Action::Undo)));
             effects
         }
     }
@@ -153,7 +154,7 @@ pub(super) fn use_method(model: &mut Model, method: &'static dyn Method) -> Vec<
     let knobs = model.knobs();
     let wanted = |name: &str| knobs.iter().position(|k| k.name() == name);
     model.state_mut().knob = wanted(active).or_else(|| wanted("k")).or_else(|| wanted("c")).unwrap_or(0);
-    model.say(Tone::Done, format!("{id}: {} · u undo", method.about().name));
+    model.say(Tone::Done, format!("{id}: {} · {} undo", method.about().name, model.key(Action::Undo)));
     if method.about().needs_rate && model.plan().setup.rate.is_none() {
         // What it says without one stays on the screen when the list is left.
         picker(model, super::PickerKind::Rate);
@@ -169,7 +170,7 @@ pub(super) fn use_preset(model: &mut Model, preset: Preset) -> Vec<Effect> {
         Preset::Paper => "every parameter as the paper has it",
     };
     let effects = set_up(model, after);
-    model.say(Tone::Done, format!("{words} · u undo"));
+    model.say(Tone::Done, format!("{words} · {} undo", model.key(Action::Undo)));
     effects
 }
 
@@ -185,7 +186,7 @@ pub(super) fn set_repair(model: &mut Model, id: &str) -> Result<Vec<Effect>, Str
     let found = crate::repair::find(id).map_err(|e| e.to_string())?;
     after.repair.set_text("repair", crate::repair::METHOD.key, found.id).map_err(|e| e.to_string())?;
     let effects = set_up(model, after);
-    model.say(Tone::Done, format!("repair {id} · u undo"));
+    model.say(Tone::Done, format!("repair {id} · {} undo", model.key(Action::Undo)));
     Ok(effects)
 }
 
@@ -212,7 +213,14 @@ pub(super) fn take_suggestion(model: &mut Model) -> Vec<Effect> {
         return match multiplier(&model.plan().setup) {
             Ok(param) => {
                 model.state_mut().sweep_asked = true;
-                model.say(Tone::Done, format!("looking along {} for a threshold; f again takes it", param.key));
+                model.say(
+                    Tone::Done,
+                    format!(
+                        "looking along {} for a threshold; {} again takes it",
+                        param.key,
+                        model.key(Action::Suggested)
+                    ),
+                );
                 vec![Effect::Advise(plan)]
             }
             Err(e) => {
@@ -226,7 +234,11 @@ pub(super) fn take_suggestion(model: &mut Model) -> Vec<Effect> {
             let (least, most, from, to) = (plateau.least, plateau.most, plateau.from, plateau.to);
             let effects = set_key(model, sweep.key, &value.to_string()).unwrap_or_default();
             let count = if least == most { least.to_string() } else { format!("{least} to {most}") };
-            let text = format!("{} {value}: {count} flagged from {from:.1} to {to:.1} · u undo", sweep.key);
+            let text = format!(
+                "{} {value}: {count} flagged from {from:.1} to {to:.1} · {} undo",
+                sweep.key,
+                model.key(Action::Undo)
+            );
             model.say(Tone::Done, text);
             effects
         }

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
-use super::super::action::Panel;
+use super::super::action::{Action, Panel};
 use super::super::model::{Model, Unit};
 use super::super::plot::{FlagState, Glyphs};
 use super::super::update::mark_at;
@@ -222,8 +222,11 @@ fn remarks(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) ->
     if mark.is_some_and(|m| m.ruling.is_some()) {
         let row = u32::try_from(series.row(i)).unwrap_or(u32::MAX);
         let note = model.plan().decisions.get(row).map(|d| d.note.clone()).unwrap_or_default();
-        let note =
-            if note.is_empty() { "no note (c writes one)".to_owned() } else { format!("note: {}", printable(&note)) };
+        let note = if note.is_empty() {
+            format!("no note ({} writes one)", model.key(Action::Note))
+        } else {
+            format!("note: {}", printable(&note))
+        };
         spans.push(Span::styled(format!(" decided by the analyst  {note}"), theme.dim));
     }
     if let Some(drawn) = &model.state().drawn {

@@ -2,6 +2,7 @@
 
 use ratatui::text::{Line, Span};
 
+use super::super::action::Action;
 use super::super::model::{Model, Pinned};
 use super::parameters::wrapped;
 use super::thousands;
@@ -96,7 +97,12 @@ pub(super) fn votes(model: &Model, position: usize, width: u16) -> Vec<Line<'sta
 pub(super) fn consensus_words(model: &Model) -> Vec<Span<'static>> {
     let (theme, state) = (&model.theme, model.state());
     if let Some(polling) = model.polling.as_ref().filter(|p| p.plan == model.shown) {
-        let text = format!("asking the methods: {} of {} have answered (Esc stops)  ", polling.done, polling.of);
+        let text = format!(
+            "asking the methods: {} of {} have answered ({} stops)  ",
+            polling.done,
+            polling.of,
+            model.key(Action::Back)
+        );
         return vec![Span::styled(text, theme.warning)];
     }
     let Some(consensus) = state.consensus.as_deref() else {

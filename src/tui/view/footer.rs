@@ -138,7 +138,7 @@ fn of_dialog(dialog: &Dialog) -> &'static [(&'static str, &'static str)] {
             ("type", "to filter"),
             ("↑↓", "choose"),
             ("Backspace", "parent"),
-            ("Tab", "how to load"),
+            ("Tab", "loader"),
             ("Esc", "leave"),
         ],
         Dialog::Loader(LoaderForm { typing: Some(_), .. }) | Dialog::Export(ExportForm { typing: Some(_), .. }) => {

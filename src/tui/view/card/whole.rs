@@ -6,6 +6,7 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
+use super::super::super::action::Action;
 use super::super::super::model::Model;
 use super::super::super::update::mark_at;
 use super::super::queue::ratio_text;
@@ -66,7 +67,12 @@ fn facts(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> V
     let decided = match (mark.and_then(|m| m.ruling), why(model)) {
         (Some(ruling), Some(why)) => format!("{}, {why}", ruling.verdict().word()),
         (_, Some(why)) => why,
-        _ => "by nobody yet: a accepts, r rejects, o flags by hand".into(),
+        _ => format!(
+            "by nobody yet: {} accepts, {} rejects, {} flags by hand",
+            model.key(Action::Accept),
+            model.key(Action::Reject),
+            model.key(Action::ByHand)
+        ),
     };
     facts.push(("decided", decided, theme.text));
     if let Some(said) = mark.filter(|m| m.conflict()).and_then(|m| m.said) {
