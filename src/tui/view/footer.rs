@@ -137,7 +137,7 @@ fn of_dialog(dialog: &Dialog) -> &'static [(&'static str, &'static str)] {
             ("Enter", "open"),
             ("type", "to filter"),
             ("↑↓", "choose"),
-            ("Backspace", "parent"),
+            ("Backspace", "up"),
             ("Tab", "loader"),
             ("Esc", "leave"),
         ],
