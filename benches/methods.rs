@@ -7,53 +7,31 @@ use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use wildpoint::experiment::Random;
 use wildpoint::method::{METHODS, Method, Rate, judge_channel};
 use wildpoint::param::{Settings, Value};
 use wildpoint::repair::{self, Damage};
 use wildpoint::stop::Stop;
 use wildpoint::track::Series;
 
-struct Record {
-    t: Vec<f64>,
-    y: Vec<f64>,
-    rate: Vec<f64>,
-}
+mod record;
 
-impl Record {
-    fn new(n: usize) -> Self {
-        let mut random = Random::new(1);
-        let t: Vec<f64> = (0..n).map(|i| i as f64 * 0.1).collect();
-        let end = n as f64 * 0.1;
-        let y = t.iter().map(|t| {
-            let spike = if random.uniform() < 0.01 { random.sign() * random.between(8.0, 40.0) } else { 0.0 };
-            200.0 + 3.0 * t - 1.5 * t * t / end + random.normal() + spike
-        });
-        let y: Vec<f64> = y.collect();
-        let rate = t.iter().map(|t| 3.0 - 3.0 * t / end + 0.1 * random.normal()).collect();
-        Self { t, y, rate }
-    }
+use record::Record;
 
-    fn series(&self) -> Series<'_> {
-        Series::new(&self.t, &self.y)
-    }
-
-    fn judge(&self, series: &Series<'_>, method: &dyn Method, settings: &Settings) -> usize {
-        let rate = Rate { t: &self.t, y: &self.rate };
-        judge_channel(method, series, Some(rate), settings, &Stop::never()).map_or(0, |j| j.verdict.len())
-    }
+fn judge(record: &Record, series: &Series<'_>, method: &dyn Method, settings: &Settings) -> usize {
+    let rate = Rate { t: &record.t, y: &record.rate };
+    judge_channel(method, series, Some(rate), settings, &Stop::never()).map_or(0, |j| j.verdict.len())
 }
 
 fn defaults(criterion: &mut Criterion) {
     for n in [100_000, 1_000_000] {
-        let record = Record::new(n);
-        let series = record.series();
+        let record = Record::new(n, 1);
+        let series = Series::new(&record.t, &record.y);
         let mut group = criterion.benchmark_group("method at its defaults");
         group.throughput(Throughput::Elements(n as u64));
         for method in METHODS {
             let settings = Settings::defaults(method.about().params);
             group.bench_function(BenchmarkId::new(method.about().id, n), |b| {
-                b.iter(|| black_box(record.judge(&series, *method, &settings)));
+                b.iter(|| black_box(judge(&record, &series, *method, &settings)));
             });
         }
         group.finish();
@@ -78,8 +56,8 @@ const BUDGETS: &[(&str, &str, Changes, &str)] = &[
 
 fn budgets(criterion: &mut Criterion) {
     let n = 1_000_000;
-    let record = Record::new(n);
-    let series = record.series();
+    let record = Record::new(n, 1);
+    let series = Series::new(&record.t, &record.y);
     let mut group = criterion.benchmark_group("budget");
     group.throughput(Throughput::Elements(n as u64));
     for (id, window, changes, name) in BUDGETS {
@@ -92,7 +70,7 @@ fn budgets(criterion: &mut Criterion) {
             settings.set_text(id, key, value).unwrap_or_else(|e| panic!("{id}: {e}"));
         }
         group.bench_function(BenchmarkId::new(*name, n), |b| {
-            b.iter(|| black_box(record.judge(&series, *method, &settings)));
+            b.iter(|| black_box(judge(&record, &series, *method, &settings)));
         });
     }
     infill(&mut group, &record);
@@ -118,14 +96,14 @@ fn infill(group: &mut BenchmarkGroup<'_, WallTime>, record: &Record) {
 /// A few methods on ten million samples: their cost must grow no more than in proportion.
 fn long(criterion: &mut Criterion) {
     let n = 10_000_000;
-    let record = Record::new(n);
-    let series = record.series();
+    let record = Record::new(n, 1);
+    let series = Series::new(&record.t, &record.y);
     let mut group = criterion.benchmark_group("method at its defaults");
     group.throughput(Throughput::Elements(n as u64));
     for method in METHODS.iter().filter(|m| ["hampel", "mean-window", "five-point"].contains(&m.about().id)) {
         let settings = Settings::defaults(method.about().params);
         group.bench_function(BenchmarkId::new(method.about().id, n), |b| {
-            b.iter(|| black_box(record.judge(&series, *method, &settings)));
+            b.iter(|| black_box(judge(&record, &series, *method, &settings)));
         });
     }
     group.finish();
@@ -133,8 +111,8 @@ fn long(criterion: &mut Criterion) {
 
 fn windows(criterion: &mut Criterion) {
     let n = 1_000_000;
-    let record = Record::new(n);
-    let series = record.series();
+    let record = Record::new(n, 1);
+    let series = Series::new(&record.t, &record.y);
     let mut group = criterion.benchmark_group("window");
     group.throughput(Throughput::Elements(n as u64));
     for method in METHODS.iter().filter(|m| m.about().params.iter().any(|p| p.key == "window")) {
@@ -144,7 +122,7 @@ fn windows(criterion: &mut Criterion) {
             // Some windows end earlier; those lengths are left out.
             if settings.set(id, "window", Value::Whole(window)).is_ok() {
                 group.bench_function(BenchmarkId::new(id, window), |b| {
-                    b.iter(|| black_box(record.judge(&series, *method, &settings)));
+                    b.iter(|| black_box(judge(&record, &series, *method, &settings)));
                 });
             }
         }

@@ -4,61 +4,43 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use wildpoint::experiment::Random;
 use wildpoint::method::{METHODS, Method, Rate, judge_segments, noise, segments};
 use wildpoint::param::Settings;
 use wildpoint::stop::{Stop, Stopped};
 use wildpoint::track::Series;
 
+#[path = "../benches/record/mod.rs"]
+mod record;
+
+use record::Record;
+
 /// More samples than this are not worked on between two looks.
 const MOST: u64 = 16_384;
 
-struct Record {
-    t: Vec<f64>,
-    y: Vec<f64>,
-    rate: Vec<f64>,
-}
-
-impl Record {
-    /// A parabola with noise and 1 % outliers.
-    fn new(n: usize) -> Self {
-        let mut random = Random::new(7);
-        let t: Vec<f64> = (0..n).map(|i| i as f64 * 0.1).collect();
-        let end = n as f64 * 0.1;
-        let y = t.iter().map(|t| {
-            let spike = if random.uniform() < 0.01 { random.sign() * random.between(8.0, 40.0) } else { 0.0 };
-            200.0 + 3.0 * t - 1.5 * t * t / end + random.normal() + spike
-        });
-        let y = y.collect();
-        let rate = t.iter().map(|t| 3.0 - 3.0 * t / end + 0.1 * random.normal()).collect();
-        Self { t, y, rate }
-    }
-
-    /// Judges with scales that are known, as the worker does after they are.
-    fn judge(&self, method: &dyn Method, stop: &Stop) -> Result<(), Stopped> {
-        let settings = Settings::defaults(method.about().params);
-        let series = Series::new(&self.t, &self.y);
-        let ranges = segments(&series, &settings);
-        let scales = noise::scales(&series, &ranges, &settings);
-        let rate = Rate { t: &self.t, y: &self.rate };
-        judge_segments(method, &series, (&ranges, &scales), Some(rate), &settings, stop).map(|_| ())
-    }
+/// Judges with scales that are known, as the worker does after they are.
+fn judge(record: &Record, method: &dyn Method, stop: &Stop) -> Result<(), Stopped> {
+    let settings = Settings::defaults(method.about().params);
+    let series = Series::new(&record.t, &record.y);
+    let ranges = segments(&series, &settings);
+    let scales = noise::scales(&series, &ranges, &settings);
+    let rate = Rate { t: &record.t, y: &record.rate };
+    judge_segments(method, &series, (&ranges, &scales), Some(rate), &settings, stop).map(|_| ())
 }
 
 #[test]
 fn every_method_looks_often_and_ends_at_the_first_look_that_says_so() {
     const PLENTY: u64 = 1 << 40;
     let n = 100_000;
-    let record = Record::new(n);
+    let record = Record::new(n, 7);
     for method in METHODS {
         let id = method.about().id;
         let left = Arc::new(AtomicU64::new(PLENTY));
-        assert_eq!(record.judge(*method, &Stop::after_looks(Arc::clone(&left))), Ok(()), "{id}");
+        assert_eq!(judge(&record, *method, &Stop::after_looks(Arc::clone(&left))), Ok(()), "{id}");
         let looks = PLENTY - left.load(Ordering::Relaxed);
         assert!(looks * MOST >= n as u64, "{id}: {looks} looks at {n} samples");
         for share in [0, 1, 2, 3] {
             let left = Arc::new(AtomicU64::new(looks * share / 4));
-            assert_eq!(record.judge(*method, &Stop::after_looks(left)), Err(Stopped), "{id}: {share}/4 of {looks}");
+            assert_eq!(judge(&record, *method, &Stop::after_looks(left)), Err(Stopped), "{id}: {share}/4 of {looks}");
         }
     }
 }
@@ -69,7 +51,7 @@ fn every_method_looks_often_and_ends_at_the_first_look_that_says_so() {
 #[expect(clippy::print_stdout, reason = "figures for a person")]
 fn how_long_it_takes_to_stop() {
     let n = std::env::var("SAMPLES").ok().and_then(|n| n.parse().ok()).unwrap_or(1_000_000);
-    let record = Record::new(n);
+    let record = Record::new(n, 7);
     for method in METHODS {
         let begun = Instant::now();
         let settings = Settings::defaults(method.about().params);
