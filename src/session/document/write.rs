@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{DELIMITERS, FORMAT};
 use crate::param::{Param, Settings, Value};
-use crate::session::{Session, folder_of};
+use crate::session::{Plan, Session, folder_of};
 use crate::track::Source;
 
 /// The session file for a session that lies at `path`. `texts` gives, for each plan, the texts of time and value of
@@ -62,22 +62,7 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
         }
         line(format!("settings = {}", inline(&plan.setup.settings)));
         line(format!("repair = {}", inline(&plan.setup.repair)));
-        if plan.decisions.is_empty() {
-            continue;
-        }
-        line("decisions = [".into());
-        for ((row, decision), (time, value)) in plan.decisions.iter().zip(texts) {
-            let mut text = format!("  {{ row = {}", row + 1);
-            let fields = [("time", time.as_str()), ("value", value), ("verdict", decision.ruling.verdict().word())];
-            for (key, value) in fields {
-                let _ = write!(text, ", {key} = {}", quoted(value));
-            }
-            if !decision.note.is_empty() {
-                let _ = write!(text, ", note = {}", quoted(&decision.note));
-            }
-            line(text + " },");
-        }
-        line("]".into());
+        decisions(plan, texts).into_iter().for_each(&mut line);
     }
     if let Some(result) = &session.result {
         line("\n[result]".into());
@@ -85,6 +70,27 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
         line(format!("clean_sha256 = {}", quoted(&result.clean_sha256)));
     }
     out
+}
+
+/// The lines of the decisions of a channel; none where there are none.
+fn decisions(plan: &Plan, texts: &[(String, String)]) -> Vec<String> {
+    if plan.decisions.is_empty() {
+        return Vec::new();
+    }
+    let mut lines = vec!["decisions = [".to_owned()];
+    for ((row, decision), (time, value)) in plan.decisions.iter().zip(texts) {
+        let mut text = format!("  {{ row = {}", row + 1);
+        let fields = [("time", time.as_str()), ("value", value), ("verdict", decision.ruling.verdict().word())];
+        for (key, value) in fields {
+            let _ = write!(text, ", {key} = {}", quoted(value));
+        }
+        if !decision.note.is_empty() {
+            let _ = write!(text, ", note = {}", quoted(&decision.note));
+        }
+        lines.push(text + " },");
+    }
+    lines.push("]".into());
+    lines
 }
 
 /// How a session at `session` names its record.
