@@ -179,6 +179,21 @@ pub enum ColumnKind {
     Empty,
 }
 
+impl ColumnKind {
+    /// Its word for people.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Time => "time",
+            Self::Number => "number",
+            Self::Truth => "truth",
+            Self::Track => "track",
+            Self::Text => "text",
+            Self::Empty => "empty",
+        }
+    }
+}
+
 /// One measured quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::method::noise;
 use crate::method::shared::MAX_GAP;
 use crate::param::Value;
-use crate::track::{ColumnKind, Delimiter, Encoding, Fault, Faults, Series, Track, printable};
+use crate::track::{Delimiter, Encoding, Fault, Faults, Series, Track, printable};
 
 /// The facts of a file.
 #[derive(Debug, Clone, Serialize)]
@@ -108,7 +108,7 @@ impl Inspection {
                 .map(|(i, c)| ColumnFacts {
                     number: i + 1,
                     name: c.name.clone(),
-                    kind: kind_word(c.kind),
+                    kind: c.kind.word(),
                     unit: c.unit.clone(),
                     missing: c.missing,
                 })
@@ -225,17 +225,6 @@ fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts
         range: low.zip(series.y.iter().copied().reduce(f64::max)),
         noise_difference: of_longest(noise::by_difference(&series, &segments)),
         noise_spline: of_longest(noise::by_spline(&series, &segments)),
-    }
-}
-
-fn kind_word(kind: ColumnKind) -> &'static str {
-    match kind {
-        ColumnKind::Time => "time",
-        ColumnKind::Number => "number",
-        ColumnKind::Truth => "truth",
-        ColumnKind::Track => "track",
-        ColumnKind::Text => "text",
-        ColumnKind::Empty => "empty",
     }
 }
 

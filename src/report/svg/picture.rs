@@ -39,10 +39,7 @@ pub(super) fn of_trace(subject: &Subject<'_>, view: View, fit: YFit, size: Size,
         let frame = Frame { size, view, y };
         let columns = Columns::new(trace, grid(frame));
         let along = Along { axis: trace.axis, columns: &columns, frame, gap: trace.gap };
-        let mut out = open(size);
-        gaps(&columns, frame, &mut out);
-        axes::draw(frame, subject.time, &mut out);
-        out.push_str(&cut(frame));
+        let mut out = begun(subject, &columns, frame);
         let mut path = |class: &str, d: String| {
             if !d.is_empty() {
                 let _ = write!(out, r#"<path class="{class}" d="{d}"/>"#);
@@ -67,6 +64,15 @@ pub(super) fn of_trace(subject: &Subject<'_>, view: View, fit: YFit, size: Size,
     })
 }
 
+/// A picture with its gaps and axes, up to the curves, which are cut at its frame.
+fn begun(subject: &Subject<'_>, columns: &Columns, frame: Frame) -> String {
+    let mut out = open(frame.size);
+    gaps(columns, frame, &mut out);
+    axes::draw(frame, subject.time, &mut out);
+    out.push_str(&cut(frame));
+    out
+}
+
 /// The residual in scales or tolerances, with the threshold on both sides.
 pub(super) fn residual(subject: &Subject<'_>) -> Figure {
     let (d, series) = (&subject.drawn, &subject.series);
@@ -79,10 +85,7 @@ pub(super) fn residual(subject: &Subject<'_>) -> Figure {
     let svg = subject.with_trace(|trace| {
         let columns = Columns::new(trace, grid(frame));
         let along = Along { axis: trace.axis, columns: &columns, frame, gap: trace.gap };
-        let mut out = open(size);
-        gaps(&columns, frame, &mut out);
-        axes::draw(frame, subject.time, &mut out);
-        out.push_str(&cut(frame));
+        let mut out = begun(subject, &columns, frame);
         let curve = Curve { pyramid: &d.ratios, span: &ratio };
         let _ = write!(out, r#"<path class="raw" d="{}"/>"#, line(&along.vertices(&curve), frame));
         for threshold in [d.threshold, -d.threshold] {

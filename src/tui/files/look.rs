@@ -98,17 +98,9 @@ fn of_record(preview: &Preview) -> Seen {
     }
     let mut warnings = faults(track);
     warnings.extend(track.notes.iter().map(|note| printable(note)));
-    let word = |kind: ColumnKind| match kind {
-        ColumnKind::Time => "time",
-        ColumnKind::Number => "number",
-        ColumnKind::Truth => "truth",
-        ColumnKind::Track => "track",
-        ColumnKind::Text => "text",
-        ColumnKind::Empty => "empty",
-    };
     let mut table = vec![
         track.columns.iter().map(|c| printable(&c.name)).collect::<Vec<_>>(),
-        track.columns.iter().map(|c| word(c.kind).to_owned()).collect(),
+        track.columns.iter().map(|c| c.kind.word().to_owned()).collect(),
     ];
     table.extend(preview.first.iter().map(|row| row.iter().map(|cell| printable(cell)).collect()));
     Seen { lines, warnings, columns: track.columns.iter().map(|c| c.name.clone()).collect(), table }
