@@ -5,27 +5,23 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
-use crossbeam_channel::{Receiver, Sender, select, unbounded};
+use crossbeam_channel::{Receiver, select, unbounded};
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{Event, KeyEventKind, read};
 use ratatui::layout::Rect;
 
 use crate::error::Result;
-use crate::job::Worker;
 use crate::session::Session;
 use crate::stop::Stop;
 use crate::track::Track;
-use advice::Advise;
 use config::Config;
-use consensus::{Poll, Polling};
-use files::{Desk, Task};
+use files::Task;
 use input::Normaliser;
-use journal::Journal;
-use message::{Effect, Message, Written};
+use message::{Effect, Message};
 use model::{Model, Tone};
-use office::{Errand, Judge};
+use office::Judge;
+use outside::Outside;
 use pace::Pace;
 use plot::Glyphs;
 pub use signals::Ended;
@@ -49,6 +45,7 @@ pub mod layout;
 pub mod message;
 pub mod model;
 pub mod office;
+mod outside;
 mod pace;
 pub mod picture;
 pub mod plot;
@@ -167,9 +164,6 @@ enum Left {
     Signalled(i32),
 }
 
-/// How long a frame waits for the result of what the user did.
-const FRAME: Duration = Duration::from_millis(16);
-
 /// The loop between the model and the outside.
 fn work(
     model: &mut Model,
@@ -218,27 +212,9 @@ fn work(
         let unseen = |m: &Message| matches!(m, Message::Advised { .. } | Message::NoAdvice);
         let panel = layout::arrange(model).is_some_and(|areas| areas.parameters.is_some());
         let still = !panel && !inbox.is_empty() && inbox.iter().all(unseen);
-        let mut anew = false;
-        for message in inbox {
-            // What the workbench before had asked for is of no use to the one that has taken its place.
-            let of_user = matches!(message, Message::Key(_) | Message::Paste(_) | Message::Resize(..));
-            if anew && !of_user {
-                continue;
-            }
-            match outside.take(model, screen, message)? {
-                Next::Leave => return Ok(Left::Quit),
-                Next::Anew => anew = true,
-                Next::Stay => {}
-            }
-        }
-        // What is there within a frame's time is drawn with it: one frame goes over the wire, not three.
-        let deadline = Instant::now() + FRAME;
-        while (model.awaited.is_some() || outside.advising)
-            && let Ok(message) = outside.messages.recv_deadline(deadline)
-        {
-            if outside.take(model, screen, message)? == Next::Leave {
-                return Ok(Left::Quit);
-            }
+        let leaves = outside.take_all(model, screen, inbox)? || outside.await_result(model, screen)?;
+        if leaves {
+            return Ok(Left::Quit);
         }
         outside.journal.catch_up();
         if pace.draws(!still) {
@@ -269,119 +245,4 @@ fn listen_for_events() -> Receiver<Event> {
         }
     });
     events
-}
-
-/// Whether the loop goes on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Next {
-    Stay,
-    /// Another record has taken the place of the one before.
-    Anew,
-    Leave,
-}
-
-/// What carries out effects.
-struct Outside {
-    worker: Worker<Judge>,
-    advisor: Worker<Advise>,
-    /// Whether the advisor has been asked what a step changes, and has not answered.
-    advising: bool,
-    poller: Worker<Poll>,
-    sender: Sender<Message>,
-    messages: Receiver<Message>,
-    journal: Journal,
-    /// The folder of journals.
-    folder: Option<PathBuf>,
-    desk: Desk,
-}
-
-impl Outside {
-    /// Workers and a journal for the model, which offers what earlier workbenches left.
-    fn new(folder: Option<PathBuf>, model: &mut Model) -> Self {
-        let (sender, messages) = unbounded();
-        let (worker, advisor) = (office::judge(sender.clone()), advice::advise(sender.clone()));
-        let journal = Journal::start(folder.clone(), model, sender.clone());
-        let poller = consensus::poll(sender.clone());
-        let desk = Desk::new(sender.clone(), folder.as_deref());
-        Self { worker, advisor, advising: false, poller, sender, messages, journal, folder, desk }
-    }
-
-    /// The same for a model that has taken the place of another, whose work is saved or not wanted.
-    fn begin_anew(&mut self, model: &mut Model) {
-        self.journal.end(true);
-        *self = Self::new(self.folder.take(), model);
-        if model.unsaved() {
-            self.journal.saved(model);
-        }
-    }
-
-    /// Has the model take a message in, and does what follows.
-    fn take(&mut self, model: &mut Model, screen: &mut Screen, message: Message) -> Result<Next> {
-        if matches!(message, Message::Stepped { .. } | Message::Advised { .. } | Message::NoAdvice) {
-            self.advising = false;
-        }
-        let saved = matches!(&message, Message::Written { what, path, result: Ok(_) } if what.session(path).is_some());
-        let effects = update::update(model, message);
-        self.journal.note(model);
-        if saved {
-            self.journal.saved(model);
-        }
-        self.carry_out(model, screen, effects)
-    }
-
-    fn carry_out(&mut self, model: &mut Model, screen: &mut Screen, effects: Vec<Effect>) -> Result<Next> {
-        let mut next = Next::Stay;
-        for effect in effects {
-            match effect {
-                Effect::Analyse(plan) => {
-                    // What the user waits for goes before advice.
-                    self.advisor.cancel();
-                    self.advising = false;
-                    model.awaited = Some(self.worker.submit(Judge::new(model, plan)));
-                }
-                Effect::Advise(plan) => {
-                    let job = Advise::new(model, plan);
-                    self.advising = job.has_steps();
-                    self.advisor.submit(job);
-                }
-                Effect::Poll(plan) => {
-                    let poll = Poll::new(model, plan);
-                    let polling = poll.started(0);
-                    let generation = self.poller.submit(poll);
-                    model.polling = Some(Polling { generation, ..polling });
-                }
-                Effect::CancelPoll => self.poller.cancel(),
-                Effect::Cancel => {
-                    self.advisor.cancel();
-                    self.advising = false;
-                    self.worker.cancel();
-                }
-                Effect::Save { path, overwrite, then_quit } => {
-                    let what = Written::Session { revision: model.revision, then_quit };
-                    self.write(model, Errand { what, path, overwrite });
-                }
-                Effect::Export { outputs, overwrite } => {
-                    let path = outputs.first().map(|o| o.path.clone()).unwrap_or_default();
-                    let what = Written::Exported { outputs, revision: model.revision };
-                    self.write(model, Errand { what, path, overwrite });
-                }
-                Effect::Files(Task::Begin) => {
-                    self.begin_anew(model);
-                    next = Next::Anew;
-                }
-                Effect::Files(task) => self.desk.begin(model, task),
-                Effect::Offered { path, fate } => self.journal.settle(model, &path, fate),
-                Effect::Copy(text) => screen.copy(&text)?,
-                Effect::Mouse(on) => screen.mouse(on)?,
-                Effect::Redraw => screen.forget()?,
-                Effect::Suspend => screen.suspend()?,
-                Effect::Quit => return Ok(Next::Leave),
-            }
-        }
-        Ok(next)
-    }
-
-    fn write(&self, model: &Model, errand: Errand) {
-        office::write(Arc::clone(&model.track), model.document(), errand, self.sender.clone());
-    }
 }

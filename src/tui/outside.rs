@@ -1,0 +1,169 @@
+//! What carries out the effects of the workbench: workers, files, the journal and the terminal.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use crossbeam_channel::{Receiver, Sender, unbounded};
+
+use super::advice::{self, Advise};
+use super::consensus::{self, Poll, Polling};
+use super::files::{Desk, Task};
+use super::journal::Journal;
+use super::message::{Effect, Message, Written};
+use super::model::Model;
+use super::office::{self, Errand, Judge};
+use super::terminal::Screen;
+use super::update::update;
+use crate::error::Result;
+use crate::job::Worker;
+
+/// How long a frame waits for the result of what the user did.
+const FRAME: Duration = Duration::from_millis(16);
+
+/// Whether the loop goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Next {
+    Stay,
+    /// Another record has taken the place of the one before.
+    Anew,
+    Leave,
+}
+
+/// What carries out effects.
+pub(super) struct Outside {
+    worker: Worker<Judge>,
+    advisor: Worker<Advise>,
+    /// Whether the advisor has been asked what a step changes, and has not answered.
+    advising: bool,
+    poller: Worker<Poll>,
+    sender: Sender<Message>,
+    pub(super) messages: Receiver<Message>,
+    pub(super) journal: Journal,
+    /// The folder of journals.
+    folder: Option<PathBuf>,
+    desk: Desk,
+}
+
+impl Outside {
+    /// Workers and a journal for the model, which offers what earlier workbenches left.
+    pub(super) fn new(folder: Option<PathBuf>, model: &mut Model) -> Self {
+        let (sender, messages) = unbounded();
+        let (worker, advisor) = (office::judge(sender.clone()), advice::advise(sender.clone()));
+        let journal = Journal::start(folder.clone(), model, sender.clone());
+        let poller = consensus::poll(sender.clone());
+        let desk = Desk::new(sender.clone(), folder.as_deref());
+        Self { worker, advisor, advising: false, poller, sender, messages, journal, folder, desk }
+    }
+
+    /// The same for a model that has taken the place of another, whose work is saved or not wanted.
+    fn begin_anew(&mut self, model: &mut Model) {
+        self.journal.end(true);
+        *self = Self::new(self.folder.take(), model);
+        if model.unsaved() {
+            self.journal.saved(model);
+        }
+    }
+
+    /// Has the model take in what has come; true when the user leaves.
+    pub(super) fn take_all(&mut self, model: &mut Model, screen: &mut Screen, inbox: Vec<Message>) -> Result<bool> {
+        let mut anew = false;
+        for message in inbox {
+            // What the workbench before had asked for is of no use to the one that has taken its place.
+            let of_user = matches!(message, Message::Key(_) | Message::Paste(_) | Message::Resize(..));
+            if anew && !of_user {
+                continue;
+            }
+            match self.take(model, screen, message)? {
+                Next::Leave => return Ok(true),
+                Next::Anew => anew = true,
+                Next::Stay => {}
+            }
+        }
+        Ok(false)
+    }
+
+    /// Takes in what is there within a frame's time, to be drawn together: one frame goes over the wire, not three.
+    /// True when the user leaves.
+    pub(super) fn await_result(&mut self, model: &mut Model, screen: &mut Screen) -> Result<bool> {
+        let deadline = Instant::now() + FRAME;
+        while (model.awaited.is_some() || self.advising)
+            && let Ok(message) = self.messages.recv_deadline(deadline)
+        {
+            if self.take(model, screen, message)? == Next::Leave {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Has the model take a message in, and does what follows.
+    fn take(&mut self, model: &mut Model, screen: &mut Screen, message: Message) -> Result<Next> {
+        if matches!(message, Message::Stepped { .. } | Message::Advised { .. } | Message::NoAdvice) {
+            self.advising = false;
+        }
+        let saved = matches!(&message, Message::Written { what, path, result: Ok(_) } if what.session(path).is_some());
+        let effects = update(model, message);
+        self.journal.note(model);
+        if saved {
+            self.journal.saved(model);
+        }
+        self.carry_out(model, screen, effects)
+    }
+
+    pub(super) fn carry_out(&mut self, model: &mut Model, screen: &mut Screen, effects: Vec<Effect>) -> Result<Next> {
+        let mut next = Next::Stay;
+        for effect in effects {
+            match effect {
+                Effect::Analyse(plan) => {
+                    // What the user waits for goes before advice.
+                    self.advisor.cancel();
+                    self.advising = false;
+                    model.awaited = Some(self.worker.submit(Judge::new(model, plan)));
+                }
+                Effect::Advise(plan) => {
+                    let job = Advise::new(model, plan);
+                    self.advising = job.has_steps();
+                    self.advisor.submit(job);
+                }
+                Effect::Poll(plan) => {
+                    let poll = Poll::new(model, plan);
+                    let polling = poll.started(0);
+                    let generation = self.poller.submit(poll);
+                    model.polling = Some(Polling { generation, ..polling });
+                }
+                Effect::CancelPoll => self.poller.cancel(),
+                Effect::Cancel => {
+                    self.advisor.cancel();
+                    self.advising = false;
+                    self.worker.cancel();
+                }
+                Effect::Save { path, overwrite, then_quit } => {
+                    let what = Written::Session { revision: model.revision, then_quit };
+                    self.write(model, Errand { what, path, overwrite });
+                }
+                Effect::Export { outputs, overwrite } => {
+                    let path = outputs.first().map(|o| o.path.clone()).unwrap_or_default();
+                    let what = Written::Exported { outputs, revision: model.revision };
+                    self.write(model, Errand { what, path, overwrite });
+                }
+                Effect::Files(Task::Begin) => {
+                    self.begin_anew(model);
+                    next = Next::Anew;
+                }
+                Effect::Files(task) => self.desk.begin(model, task),
+                Effect::Offered { path, fate } => self.journal.settle(model, &path, fate),
+                Effect::Copy(text) => screen.copy(&text)?,
+                Effect::Mouse(on) => screen.mouse(on)?,
+                Effect::Redraw => screen.forget()?,
+                Effect::Suspend => screen.suspend()?,
+                Effect::Quit => return Ok(Next::Leave),
+            }
+        }
+        Ok(next)
+    }
+
+    fn write(&self, model: &Model, errand: Errand) {
+        office::write(Arc::clone(&model.track), model.document(), errand, self.sender.clone());
+    }
+}
