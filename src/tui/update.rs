@@ -116,13 +116,36 @@ fn no_action(model: &mut Model, key: KeyEvent, prefix: Option<char>) {
     model.say(Tone::Warning, format!("{} does nothing here · {help} shows the keys", printable(&typed)));
 }
 
+/// A part of what is done: its effects, or none where the action is another's.
+type Part = fn(&mut Model, Action) -> Option<Vec<Effect>>;
+
+/// The parts that carry actions out. Each action is one part's; the others leave it.
+const PARTS: [Part; 11] = [
+    review::act,
+    decide::act,
+    tune::act,
+    navigate::act,
+    history::act,
+    pictures::act,
+    compare::act,
+    consensus::act,
+    channels::act,
+    files::act,
+    window,
+];
+
 /// Does what an action means.
 pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
     if action != Action::Interrupt {
         model.interrupted = false;
         model.toast = None;
     }
-    match action {
+    PARTS.iter().find_map(|part| part(model, action)).unwrap_or_default()
+}
+
+/// What is about the window: its panels, what lies over them, and leaving it.
+fn window(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
+    Some(match action {
         Action::Help => open(model, Overlay::Help(tui_input::Input::default(), 0)),
         Action::Command => prompt(model, PromptKind::Command, ""),
         Action::Jump => prompt(model, PromptKind::Jump, ""),
@@ -136,12 +159,9 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
         Action::Mouse => {
             model.mouse = !model.mouse;
             let words = if model.mouse { "the mouse points and zooms here" } else { "the mouse selects text" };
-            model.say(Tone::Done, format!("{words} · M the other way"));
+            model.say(Tone::Done, format!("{words} · {} the other way", model.key(action)));
             vec![Effect::Mouse(model.mouse)]
         }
-        Action::Methods => picker(model, PickerKind::Method),
-        Action::Repairs => picker(model, PickerKind::Repair),
-        Action::Channels => picker(model, PickerKind::Channel),
         Action::NextPanel => focus(model, 1),
         Action::PreviousPanel => focus(model, Panel::ALL.len() - 1),
         Action::Panel(panel) => {
@@ -152,68 +172,13 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
             model.maximised = !model.maximised;
             Vec::new()
         }
-        Action::Undo => history::undo(model),
-        Action::Redo => history::redo(model),
-        Action::Save => files::save(model, None, false, false),
-        Action::Export => dialog::export_dialog(model),
-        Action::Open => dialog::browse(model),
-        Action::SaveAs => {
-            let path = model.file.clone().unwrap_or_else(|| default_session(&model.track.source));
-            prompt(model, PromptKind::SaveAs, &path.to_string_lossy())
-        }
         Action::Quit => quit(model),
         Action::Interrupt => interrupt(model),
         Action::Redraw => vec![Effect::Redraw],
         Action::Suspend => vec![Effect::Suspend],
         Action::Back => back(model),
-        Action::StepUp => tune::step(model, 1),
-        Action::StepDown => tune::step(model, -1),
-        Action::StepUpFar => tune::step(model, 10),
-        Action::StepDownFar => tune::step(model, -10),
-        Action::NextKnob => tune::choose(model, 1),
-        Action::PreviousKnob => tune::choose(model, -1),
-        Action::TypeValue => tune::type_value(model),
-        Action::DefaultValue => tune::to_default(model),
-        Action::Preset => tune::other_preset(model),
-        Action::Suggested => tune::take_suggestion(model),
-        Action::NextChannel => {
-            let next = (model.shown + 1) % model.channels.len();
-            show(model, next)
-        }
-        Action::NextFlag
-        | Action::PreviousFlag
-        | Action::NextUnreviewed
-        | Action::PreviousUnreviewed
-        | Action::NextSuspect
-        | Action::PreviousSuspect
-        | Action::NextConflict
-        | Action::PreviousConflict
-        | Action::NextInQueue
-        | Action::PreviousInQueue
-        | Action::Sort
-        | Action::Unit
-        | Action::AutoAdvance => review::act(model, action),
-        Action::Note => note::ask(model),
-        Action::Journal => journal::open(model),
-        Action::SettingsToAll => channels::settings_to_all(model),
-        Action::Epoch => channels::epoch(model),
-        Action::SelectRange
-        | Action::Accept
-        | Action::Reject
-        | Action::Toggle
-        | Action::Clear
-        | Action::ByHand
-        | Action::AcceptView
-        | Action::RejectView
-        | Action::ClearView => decide::act(model, action),
-        _ => {
-            let done = pictures::act(model, action).or_else(|| compare::act(model, action));
-            done.or_else(|| consensus::act(model, action)).unwrap_or_else(|| {
-                navigate::act(model, action);
-                Vec::new()
-            })
-        }
-    }
+        _ => return None,
+    })
 }
 
 /// Shows the channel of another plan.
@@ -358,5 +323,27 @@ pub(super) fn list_of(knob: Knob) -> Option<PickerKind> {
         Knob::Rate => Some(PickerKind::Rate),
         Knob::Repair(p) if p.key == crate::repair::METHOD.key => Some(PickerKind::Repair),
         Knob::Detection(_) | Knob::Repair(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::{Session, Setup};
+    use crate::track::{LoadOptions, Source, load};
+    use crate::tui::keys::KEYMAP;
+    use crate::tui::plot::Glyphs;
+    use crate::tui::theme::Theme;
+    use std::sync::Arc;
+
+    #[test]
+    fn every_action_is_that_of_one_part() {
+        let track = Arc::new(load(&Source::demo(), &LoadOptions::default()).unwrap());
+        let session = Session::new(&track, LoadOptions::default(), &Setup::standard());
+        let fresh = || Model::new(Arc::clone(&track), session.clone(), None, Theme::mono(), Glyphs::Unicode);
+        for row in KEYMAP {
+            let parts = PARTS.iter().filter(|part| part(&mut fresh(), row.action).is_some()).count();
+            assert_eq!(parts, 1, "{:?}", row.action);
+        }
     }
 }

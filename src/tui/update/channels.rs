@@ -1,14 +1,27 @@
-//! What is done to every channel at once: settings, and the decision about one epoch.
+//! Which channel is shown, and what is done to all of them at once: settings, and the decision about one epoch.
 
 use super::super::action::Action;
 use super::super::message::Effect;
-use super::super::model::{Model, Tone};
+use super::super::model::{Model, PickerKind, Tone};
 use super::super::words::plural;
 use super::review::mark_at;
-use super::{commit, decide};
+use super::{commit, decide, picker, show};
 use crate::review::{Change, Decision, Ruling};
 use crate::session::{Edit, Setup};
 use crate::track::printable;
+
+pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
+    Some(match action {
+        Action::Channels => picker(model, PickerKind::Channel),
+        Action::NextChannel => {
+            let next = (model.shown + 1) % model.channels.len();
+            show(model, next)
+        }
+        Action::SettingsToAll => settings_to_all(model),
+        Action::Epoch => epoch(model),
+        _ => return None,
+    })
+}
 
 /// Gives all other channels the method, the settings and the repair of the one on the screen. The rate channel is
 /// each channel's own.

@@ -13,8 +13,8 @@ use crate::plot::state;
 use crate::review::{Change, Decision, Ruling};
 use crate::session::Edit;
 
-pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
-    match action {
+pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
+    Some(match action {
         Action::Accept => decide(model, Some(Ruling::Outlier)),
         Action::Reject => decide(model, Some(Ruling::Normal)),
         Action::Clear => decide(model, None),
@@ -27,8 +27,8 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
             select(model);
             Vec::new()
         }
-        _ => Vec::new(),
-    }
+        _ => return None,
+    })
 }
 
 /// What a decision is about.

@@ -3,13 +3,27 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::super::action::Action;
 use super::super::files::Task;
 use super::super::message::{Effect, OutputKind, Written};
-use super::super::model::{Dialog, Model, Overlay, Tone};
-use super::{dialog, queue};
+use super::super::model::{Dialog, Model, Overlay, PromptKind, Tone};
+use super::{dialog, prompt, queue};
 use crate::error::{Error, Result};
 use crate::plot::Drawn;
 use crate::track::Source;
+
+pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
+    Some(match action {
+        Action::Save => save(model, None, false, false),
+        Action::SaveAs => {
+            let path = model.file.clone().unwrap_or_else(|| default_session(&model.track.source));
+            prompt(model, PromptKind::SaveAs, &path.to_string_lossy())
+        }
+        Action::Export => dialog::export_dialog(model),
+        Action::Open => dialog::browse(model),
+        _ => return None,
+    })
+}
 
 /// Where a session on this record is saved when nobody says where: in the current folder, since the record's own
 /// may not be the analyst's.

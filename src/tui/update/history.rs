@@ -3,8 +3,17 @@
 use super::super::action::Action;
 use super::super::message::Effect;
 use super::super::model::{Model, Tone};
-use super::{describe, navigate, tune};
+use super::{describe, journal, navigate, tune};
 use crate::session::{Edit, Setup};
+
+pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
+    match action {
+        Action::Undo => Some(undo(model)),
+        Action::Redo => Some(redo(model)),
+        Action::Journal => Some(journal::open(model)),
+        _ => None,
+    }
+}
 
 /// Makes an edit that can be undone; the channels it is about are judged again.
 pub(super) fn commit(model: &mut Model, edit: Edit) -> Vec<Effect> {

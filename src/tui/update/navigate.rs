@@ -2,6 +2,7 @@
 
 use super::super::action::Action;
 use super::super::layout;
+use super::super::message::Effect;
 use super::super::model::{Model, Tone};
 use super::super::plot::View;
 
@@ -14,7 +15,7 @@ const AROUND_RUN: usize = 20;
 /// How many views `Z` can go back.
 const VIEWS_KEPT: usize = 50;
 
-pub(super) fn act(model: &mut Model, action: Action) {
+pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
     match action {
         Action::PanLeft => pan(model, -0.1),
         Action::PanRight => pan(model, 0.1),
@@ -35,8 +36,9 @@ pub(super) fn act(model: &mut Model, action: Action) {
         Action::PreviousSample => walk(model, false),
         Action::First => go_to(model, 0),
         Action::Last => go_to(model, usize::MAX),
-        _ => {}
+        _ => return None,
     }
+    Some(Vec::new())
 }
 
 /// The nominal interval in units of x.

@@ -4,11 +4,11 @@ use super::super::action::Action;
 use super::super::message::Effect;
 use super::super::model::{Model, Sort, Tone, Unit};
 use super::super::plot::FlagState;
-use super::{navigate, queue};
+use super::{navigate, note, queue};
 use crate::plot::state;
 use crate::session::Mark;
 
-pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
+pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
     match action {
         Action::NextFlag => go(model, true, Stops::Flags),
         Action::PreviousFlag => go(model, false, Stops::Flags),
@@ -26,9 +26,10 @@ pub(super) fn act(model: &mut Model, action: Action) -> Vec<Effect> {
             let on = !model.review.auto_advance;
             set_auto_advance(model, on);
         }
-        _ => {}
+        Action::Note => return Some(note::ask(model)),
+        _ => return None,
     }
-    Vec::new()
+    Some(Vec::new())
 }
 
 /// The mark of a sample under the decisions as they are now (the result on the screen may be older).

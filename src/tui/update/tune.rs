@@ -3,12 +3,30 @@
 use super::super::action::Action;
 use super::super::advice::BY_ITSELF;
 use super::super::message::Effect;
-use super::super::model::{Knob, Model, PromptKind, Tone};
+use super::super::model::{Knob, Model, PickerKind, PromptKind, Tone};
 use super::{list_of, picker, prompt, set_up};
 use crate::method::{METHODS, Method};
 use crate::param::{Settings, Value};
 use crate::session::sweep::multiplier;
 use crate::session::{Preset, Setup};
+
+pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
+    Some(match action {
+        Action::Methods => picker(model, PickerKind::Method),
+        Action::Repairs => picker(model, PickerKind::Repair),
+        Action::StepUp => step(model, 1),
+        Action::StepDown => step(model, -1),
+        Action::StepUpFar => step(model, 10),
+        Action::StepDownFar => step(model, -10),
+        Action::NextKnob => choose(model, 1),
+        Action::PreviousKnob => choose(model, -1),
+        Action::TypeValue => type_value(model),
+        Action::DefaultValue => to_default(model),
+        Action::Preset => other_preset(model),
+        Action::Suggested => take_suggestion(model),
+        _ => return None,
+    })
+}
 
 /// The single knob by which two setups differ, with its values; none when they differ in more, or in the method.
 pub(super) fn knob_between(before: &Setup, after: &Setup) -> Option<(&'static str, String, String)> {
