@@ -51,7 +51,8 @@ fn changed(track: &wildpoint::track::Track, options: &LoadOptions) {
     rewrite(track, &Changes { cells, rows: Vec::new() }, &mut out).unwrap();
     let source = Source::BuiltIn { name: "fuzz-changed.csv", bytes: out.into() };
     // With so few rows one cell can change what the file is taken for; as it was understood it reads back.
-    let names = |index: usize| format!("#{}", index + 1);
+    // A column may itself be called `#2`, and a name goes before a number.
+    let names = |index: usize| track.columns[index].name.clone();
     let options = LoadOptions {
         time: track.time.column.map(names).or(Some("sample".into())),
         channels: vec![names(channel.column)],
