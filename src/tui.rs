@@ -15,6 +15,7 @@ use crate::error::Result;
 use crate::session::Session;
 use crate::stop::Stop;
 use crate::track::Track;
+use advice::Advise;
 use config::Config;
 use files::Task;
 use input::Normaliser;
@@ -104,6 +105,7 @@ pub fn still(opening: Opening, look: Look, size: (u16, u16)) -> Result<String> {
     let drawn = Judge::new(&model, plan).run(&Stop::never())?;
     model.awaited = Some(0);
     update::update(&mut model, Message::Analysed { generation: 0, plan, result: Ok(Box::new(drawn)) });
+    Advise::new(&model, plan).answer(&Stop::never(), |message| drop(update::update(&mut model, message)));
     let area = Rect { x: 0, y: 0, width: size.0, height: size.1 };
     let mut buffer = Buffer::empty(area);
     view::draw(&model, area, &mut buffer);

@@ -101,34 +101,33 @@ impl Advise {
         let sweep = sweep(&self.track, channel, &self.samples, &self.setup, (param, &values), stop)?;
         Ok(Advice { setup: self.setup.clone(), sweep })
     }
+
+    /// Tells what is found as it is found; what cannot be swept is not spoken of.
+    pub fn answer(&self, stop: &Stop, mut tell: impl FnMut(Message)) {
+        // Whoever waits for an answer gets one.
+        match self.steps(stop) {
+            Ok(Some(steps)) => tell(Message::Stepped { plan: self.plan, steps: Box::new(steps) }),
+            Err(Error::Stopped) => return,
+            Err(_) => tell(Message::NoAdvice),
+            Ok(None) => {}
+        }
+        if !self.wants_sweep {
+            return;
+        }
+        match self.run(stop) {
+            Ok(advice) => tell(Message::Advised { plan: self.plan, advice: Box::new(advice) }),
+            Err(Error::Stopped) => {}
+            Err(_) => tell(Message::NoAdvice),
+        }
+    }
 }
 
-/// A worker that finds advice and sends what comes out; what cannot be swept is not spoken of.
+/// A worker that finds advice and sends what comes out.
 #[must_use]
 pub fn advise(results: Sender<Message>) -> Worker<Advise> {
     Worker::new(move |_, job: Advise, stop: &Stop| {
-        // Whoever waits for an answer gets one.
-        match job.steps(stop) {
-            Ok(Some(steps)) => {
-                let _ = results.send(Message::Stepped { plan: job.plan, steps: Box::new(steps) });
-            }
-            Err(Error::Stopped) => return,
-            Err(_) => {
-                let _ = results.send(Message::NoAdvice);
-            }
-            Ok(None) => {}
-        }
-        if !job.wants_sweep {
-            return;
-        }
-        match job.run(stop) {
-            Ok(advice) => {
-                let _ = results.send(Message::Advised { plan: job.plan, advice: Box::new(advice) });
-            }
-            Err(Error::Stopped) => {}
-            Err(_) => {
-                let _ = results.send(Message::NoAdvice);
-            }
-        }
+        job.answer(stop, |message| {
+            let _ = results.send(message);
+        });
     })
 }
