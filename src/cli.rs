@@ -2,13 +2,14 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::error::{Error, Result};
 use crate::method::shared::MAX_GAP;
 use crate::repair;
 use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
-use crate::track::{Delimiter, LoadOptions};
+use crate::track::{Delimiter, Encoding, LoadOptions, TimeUnit, Worded};
 
 mod experiments;
 
@@ -182,8 +183,15 @@ pub struct Load {
     #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     pub missing: Vec<String>,
     /// What stands between two cells [default: recognised].
-    #[arg(long, value_enum, value_name = "WHAT")]
-    pub delimiter: Option<DelimiterArg>,
+    #[arg(long, value_name = "WHAT", value_parser = worded::<Delimiter>())]
+    pub delimiter: Option<Delimiter>,
+    /// How the bytes of the text are meant, where no byte order mark says so [default: UTF-8, or Latin-1 (Windows-1252)
+    /// where it is none].
+    #[arg(long, value_name = "WHICH", value_parser = worded::<Encoding>())]
+    pub encoding: Option<Encoding>,
+    /// Unit of times that are numbers [default: that in the name of the column, otherwise seconds].
+    #[arg(long, value_name = "UNIT", value_parser = worded::<TimeUnit>())]
+    pub time_unit: Option<TimeUnit>,
     /// `1,5` means one and a half [default: recognised].
     #[arg(long)]
     pub decimal_comma: bool,
@@ -198,19 +206,10 @@ pub struct Load {
     pub dates: Option<DateOrder>,
 }
 
-/// What stands between two cells.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum DelimiterArg {
-    /// `,`
-    Comma,
-    /// `;`
-    Semicolon,
-    /// A tab.
-    Tab,
-    /// `|`
-    Pipe,
-    /// Runs of blanks.
-    Blanks,
+/// One of the words for a value.
+fn worded<T: Worded>() -> impl TypedValueParser<Value = T> {
+    let words: Vec<&'static str> = T::WORDS.iter().map(|(word, _)| *word).collect();
+    PossibleValuesParser::new(words).try_map(|word| T::of_word(&word).ok_or("not one of the words"))
 }
 
 /// How dates with the year last are meant.
@@ -314,18 +313,13 @@ impl Load {
             truth: self.truth.clone(),
             track: self.track.clone(),
             missing: self.missing.clone(),
-            delimiter: self.delimiter.map(|d| match d {
-                DelimiterArg::Comma => Delimiter::Byte(b','),
-                DelimiterArg::Semicolon => Delimiter::Byte(b';'),
-                DelimiterArg::Tab => Delimiter::Byte(b'\t'),
-                DelimiterArg::Pipe => Delimiter::Byte(b'|'),
-                DelimiterArg::Blanks => Delimiter::Blanks,
-            }),
+            delimiter: self.delimiter,
+            encoding: self.encoding,
+            time_unit: self.time_unit,
             decimal_comma: self.decimal_comma.then_some(true),
             header: self.no_header.then_some(false),
             quotes: self.no_quotes.then_some(false),
             day_first: self.dates.map(|d| d == DateOrder::DayFirst),
-            ..LoadOptions::default()
         }
     }
 }

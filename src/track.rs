@@ -38,6 +38,7 @@ mod targets;
 mod text;
 mod timing;
 mod tokens;
+mod told;
 mod waves;
 mod widen;
 
@@ -57,6 +58,7 @@ pub use rows::for_each_row;
 pub use series::{Samples, Series, lost_samples};
 pub use targets::Target;
 pub(crate) use tokens::split;
+pub use told::{TimeUnit, Worded};
 pub use widen::{NewColumn, widen};
 
 /// Where the bytes of a record come from.

@@ -134,3 +134,33 @@ fn lost_samples_get_rows_inside_segments_and_gaps_stay_boundaries() {
     folder.done("clean demo.csv --repair linear --fill-gaps cells -o cells.csv");
     assert_eq!(times(&folder.text("cells.csv")), times(&folder.text("demo.csv")));
 }
+
+#[test]
+fn what_the_loader_was_told_is_kept_in_the_session() {
+    let mut bytes = b"t,H\xf6he\n".to_vec();
+    for i in 0..ROWS {
+        let y = if i == WILD { 900.0 } else { i as f64 / 2.0 };
+        writeln!(bytes, "{},{y:.2}", i * 20).unwrap();
+    }
+    let folder = Folder::with(&[("r.csv", &bytes)]);
+    let inspected = folder.done("inspect r.csv --time-unit ms");
+    assert!(inspected.contains("1.18 s"), "59 steps of 20 ms: {inspected}");
+    let loading = "--time-unit ms --encoding latin-1";
+    folder.done(&format!("clean r.csv {loading} -o c.csv --save-session s.toml"));
+    let session = folder.text("s.toml");
+    assert!(session.contains("time_unit = \"ms\"\n") && session.contains("encoding = \"latin-1\"\n"), "{session}");
+    assert!(session.contains("name = \"Höhe\""), "{session}");
+    folder.done("replay s.toml --check");
+    // Another unit, or none that there is.
+    std::fs::write(folder.path("bad.toml"), session.replace("\"ms\"", "\"weeks\"")).unwrap();
+    let ran = folder.run("replay bad.toml --check");
+    let line = 1 + session.lines().position(|l| l.starts_with("time_unit")).unwrap();
+    assert_eq!(ran.status, 2);
+    assert!(
+        ran.err.contains(&format!("bad.toml:{line}: ")) && ran.err.contains("ns, us, ms, s, min, h, d"),
+        "{}",
+        ran.err
+    );
+    let ran = folder.run("inspect r.csv --encoding utf-8");
+    assert!(ran.status == 2 && ran.err.contains("r.csv:1: a byte that is not UTF-8"), "{}", ran.err);
+}

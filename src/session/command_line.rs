@@ -3,11 +3,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::document::DELIMITERS;
 use super::{DEFAULT_METHOD, Plan, Preset, Session, Setup};
 use crate::param::Settings;
 use crate::repair;
-use crate::track::{LoadOptions, Source};
+use crate::track::{LoadOptions, Source, Worded};
 
 /// The command for a POSIX shell that writes to `output` what `session` gives: `wildpoint clean` with what differs
 /// from the preset in force. None where no `clean` says the same, and only the saved session does: with decisions,
@@ -39,10 +38,8 @@ pub fn replay_command(session: &Path, output: &Path) -> Option<String> {
 
 /// The options of loading; none when there is one that the command line cannot say.
 fn loading(line: &mut String, options: &LoadOptions) -> Option<()> {
-    let only_in_sessions = options.encoding.is_some()
-        || options.decimal_comma == Some(false)
-        || options.header == Some(true)
-        || options.quotes == Some(true);
+    let only_in_sessions =
+        options.decimal_comma == Some(false) || options.header == Some(true) || options.quotes == Some(true);
     if only_in_sessions {
         return None;
     }
@@ -52,8 +49,13 @@ fn loading(line: &mut String, options: &LoadOptions) -> Option<()> {
         }
     }
     options.missing.iter().for_each(|text| option(line, "missing", text));
-    if let Some(delimiter) = options.delimiter {
-        option(line, "delimiter", DELIMITERS.iter().find(|(_, d)| *d == delimiter)?.0);
+    let words = [
+        ("delimiter", options.delimiter.map(Worded::word)),
+        ("encoding", options.encoding.map(Worded::word)),
+        ("time-unit", options.time_unit.map(Worded::word)),
+    ];
+    for (name, word) in words.into_iter().filter_map(|(name, word)| Some((name, word?))) {
+        option(line, name, word?);
     }
     let switches = [
         ("decimal-comma", options.decimal_comma == Some(true)),

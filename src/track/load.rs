@@ -15,8 +15,8 @@ use super::timing::{Timing, choose};
 use super::tokens::inner;
 use super::waves::{Failure, parse};
 use super::{
-    Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Fault, Faults, Source, TimeAxis, TimeFormat, Track,
-    notes, printable, rows,
+    Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Fault, Faults, Source, TimeAxis, TimeFormat, TimeUnit,
+    Track, notes, printable, rows,
 };
 use crate::error::{Error, Result};
 
@@ -38,7 +38,7 @@ pub struct LoadOptions {
     pub delimiter: Option<Delimiter>,
     /// True when `1,5` means one and a half.
     pub decimal_comma: Option<bool>,
-    /// The encoding of the text.
+    /// The encoding of the text, where it is not UTF-16 with its mark.
     pub encoding: Option<Encoding>,
     /// Whether the first line names the columns.
     pub header: Option<bool>,
@@ -46,6 +46,8 @@ pub struct LoadOptions {
     pub quotes: Option<bool>,
     /// Whether 1/2/2005 is in February. Needed where the file does not show it.
     pub day_first: Option<bool>,
+    /// The unit of times that are numbers. Recognised: that of the column, otherwise seconds.
+    pub time_unit: Option<TimeUnit>,
 }
 
 /// Loads a record.

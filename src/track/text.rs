@@ -170,7 +170,7 @@ fn eight_bit(bytes: &[u8], bom: bool, wanted: Option<Encoding>, path: &Path) -> 
             path: path.to_path_buf(),
             line: Some(line_at(bytes, e.valid_up_to())),
             what: "a byte that is not UTF-8".into(),
-            help: "read it as Latin-1, or leave the encoding to be recognised".into(),
+            help: "read it as Latin-1 (--encoding latin-1), or leave the encoding to be recognised".into(),
         }),
     }
 }

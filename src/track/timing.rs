@@ -5,7 +5,7 @@ use std::path::Path;
 use super::calendar::{DAY, SECOND};
 use super::head::Head;
 use super::stamp::{self, Count};
-use super::{LoadOptions, TimeFormat, names, printable};
+use super::{LoadOptions, TimeFormat, TimeUnit, Worded, names, printable};
 use crate::error::{Error, Result};
 
 /// The time of the file: where it stands and how it is read.
@@ -98,7 +98,7 @@ impl Form {
 /// The time column: the one of the options, otherwise the one that looks most like a time; none for the sample number.
 ///
 /// # Errors
-/// [`Error::Usage`] for a name that is not there; [`Error::Input`] where the named column holds no times, and where
+/// [`Error::Usage`] for a name that is not there, and for a unit of times that are no numbers; [`Error::Input`] where the named column holds no times, and where
 /// day and month cannot be told apart.
 pub(crate) fn choose(head: &Head, options: &LoadOptions, path: &Path) -> Result<Option<Timing>> {
     let chosen = match &options.time {
@@ -109,16 +109,31 @@ pub(crate) fn choose(head: &Head, options: &LoadOptions, path: &Path) -> Result<
         }
         None => best(head),
     };
-    let Some((column, form)) = chosen else { return Ok(None) };
+    let unit = options.time_unit.and_then(Worded::word);
+    let Some((column, form)) = chosen else {
+        return match unit {
+            None => Ok(None),
+            Some(word) => Err(unitless("the times are sample numbers", word)),
+        };
+    };
     let (column, date_column) = paired(head, column, form);
     let dated = date_column.unwrap_or(column);
-    let format = match Form::of(head, dated).unwrap_or(form) {
+    let format = Form::of(head, dated).unwrap_or(form);
+    if let Some(word) = unit.filter(|_| format != Form::Number) {
+        return Err(unitless(&format!("`{}` holds dates or times of day", printable(&head.names[dated])), word));
+    }
+    let format = match format {
         Form::Iso { .. } => TimeFormat::Iso,
         Form::Clock => TimeFormat::Clock,
         Form::YearLast { .. } => TimeFormat::YearLast { day_first: day_first(head, dated, options, path)? },
-        Form::Number => number_format(head, column),
+        Form::Number => number_format(head, column, options.time_unit),
     };
     Ok(Some(Timing { column, date_column, format }))
+}
+
+/// A unit was told that nothing has.
+fn unitless(what: &str, word: &str) -> Error {
+    Error::usage(format!("{what}, which have no unit ({word})"), "leave out the unit of time, or choose a time column")
 }
 
 fn best(head: &Head) -> Option<(usize, Form)> {
@@ -175,11 +190,13 @@ pub(crate) fn increases(head: &Head, column: usize) -> bool {
     numbers.len() > 1 && forward * 10 >= (numbers.len() - 1) * 9
 }
 
-/// Seconds, another unit, or time since 1970: by the unit of the column, and by the size of its numbers where that
-/// and name or steps make dates from 1990 to 2100.
-fn number_format(head: &Head, column: usize) -> TimeFormat {
+/// Seconds, another unit, or time since 1970: by the unit that was told or that of the column, and by the size of its
+/// numbers where that and name or steps make dates from 1990 to 2100.
+fn number_format(head: &Head, column: usize, told: Option<TimeUnit>) -> TimeFormat {
     let name = &head.names[column];
-    let unit = names::time_unit_ns(&head.units[column]).or_else(|| names::time_unit_ns(&names::unit_of(name)));
+    let of_column = || names::time_unit_ns(&head.units[column]).or_else(|| names::time_unit_ns(&names::unit_of(name)));
+    let told = told.map(|unit| unit.ns);
+    let unit = told.or_else(of_column);
     let mut values = numbers(head, column);
     let steps: Vec<f64> = values.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|s| *s > 0.0).collect();
     let middle = |values: &mut Vec<f64>| {
@@ -198,7 +215,10 @@ fn number_format(head: &Head, column: usize) -> TimeFormat {
     };
     // GPS time has another zero and no leap seconds.
     let other_zero = names::words(name).iter().any(|w| matches!(w.to_lowercase().as_str(), "gps" | "tow" | "gnss"));
-    let epoch = [SECOND, 1_000_000, 1_000, 1].into_iter().find(|u| dated(*u)).filter(|_| !other_zero);
+    let epoch = [SECOND, 1_000_000, 1_000, 1]
+        .into_iter()
+        .find(|u| told.is_none_or(|told| told == *u) && dated(*u))
+        .filter(|_| !other_zero);
     match (unit, epoch) {
         (Some(unit), Some(epoch)) if unit == epoch => TimeFormat::Epoch { unit_ns: epoch },
         (None, Some(epoch)) => TimeFormat::Epoch { unit_ns: epoch },
@@ -306,6 +326,26 @@ mod tests {
         assert!(e.contains("x.csv:2: `time` holds dates like 1/2/2005"), "{e}");
         let told = LoadOptions { day_first: Some(true), ..LoadOptions::default() };
         assert_eq!(chosen_with(text, &told).unwrap().map(|c| c.2), Some(TimeFormat::YearLast { day_first: true }));
+    }
+
+    #[test]
+    fn a_unit_that_is_told_goes_before_that_of_the_column() {
+        let told = |text: &str, word: &str| {
+            let options = LoadOptions { time_unit: TimeUnit::of_word(word), ..LoadOptions::default() };
+            chosen_with(text, &options).map(|c| c.map(|c| c.2))
+        };
+        let ms = Some(TimeFormat::Elapsed { unit_ns: 1_000_000 });
+        assert_eq!(told("t,x\n0,1\n10,2\n20,3\n", "ms").unwrap(), ms);
+        assert_eq!(told("time_us,x\n0,1\n10,2\n", "ms").unwrap(), ms);
+        assert_eq!(told("time_us,x\n0,1\n10,2\n", "s").unwrap(), Some(TimeFormat::Seconds));
+        // A number that is a date in the unit that was told, and one that would be a date in another.
+        let epoch = "timestamp,x\n1573495025250,1\n1573495025260,2\n";
+        assert_eq!(told(epoch, "ms").unwrap(), Some(TimeFormat::Epoch { unit_ns: 1_000_000 }));
+        assert_eq!(told(epoch, "us").unwrap(), Some(TimeFormat::Elapsed { unit_ns: 1_000 }));
+        for text in ["x,when\n1,2019-01-01 00:00\n2,2019-01-01 00:15\n", "0.0,1\n0.1,2\n"] {
+            let e = told(text, "ms").unwrap_err().to_string();
+            assert!(e.contains("have no unit (ms)") && e.contains("leave out the unit"), "{e}");
+        }
     }
 
     #[test]

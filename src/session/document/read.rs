@@ -7,13 +7,13 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::{Spanned, Table};
 
-use super::{DELIMITERS, FORMAT};
+use super::FORMAT;
 use crate::error::{Error, Result};
 use crate::param::{Kind, Param, Settings, Value, find};
 use crate::repair;
 use crate::review::{Decision, Decisions, Ruling};
 use crate::session::{Data, Plan, Recorded, Session, Setup, folder_of, method_of_id, tidied};
-use crate::track::{LoadOptions, Source};
+use crate::track::{LoadOptions, Source, Worded};
 
 /// A session file larger than this is none.
 const LARGEST: u64 = 64 << 20;
@@ -65,6 +65,8 @@ struct WrittenData {
     #[serde(default)]
     missing: Vec<String>,
     delimiter: Option<Spanned<String>>,
+    encoding: Option<Spanned<String>>,
+    time_unit: Option<Spanned<String>>,
     decimal_comma: Option<bool>,
     header: Option<bool>,
     quotes: Option<bool>,
@@ -192,14 +194,6 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn data(&self, data: WrittenData) -> Result<Data> {
-        let delimiter = |word: Spanned<String>| {
-            let known = DELIMITERS.iter().find(|d| d.0 == word.get_ref()).map(|d| d.1);
-            known.ok_or_else(|| {
-                let words = DELIMITERS.map(|d| d.0).join(", ");
-                let what = format!("delimiter = {:?}", word.get_ref());
-                fault(self.path, self.line(word.span()), what, &format!("delimiters are {words}"))
-            })
-        };
         let source = match Source::built_in(&data.file) {
             Some(source) => source,
             None => Source::File(tidied(&folder_of(self.path).join(data.file))),
@@ -209,14 +203,26 @@ impl Reader<'_> {
             truth: data.truth,
             track: data.track,
             missing: data.missing,
-            delimiter: data.delimiter.map(delimiter).transpose()?,
+            delimiter: self.told("delimiter", data.delimiter)?,
+            encoding: self.told("encoding", data.encoding)?,
+            time_unit: self.told("time_unit", data.time_unit)?,
             decimal_comma: data.decimal_comma,
             header: data.header,
             quotes: data.quotes,
             day_first: data.day_first,
-            ..LoadOptions::default()
+            channels: Vec::new(),
         };
         Ok(Data { source, sha256: data.sha256, rows: data.rows.into_inner(), row_check: data.row_check, options })
+    }
+
+    /// A value of the loader that is told by a word.
+    fn told<T: Worded>(&self, key: &str, word: Option<Spanned<String>>) -> Result<Option<T>> {
+        let Some(word) = word else { return Ok(None) };
+        let unknown = || {
+            let what = format!("{key} = {:?}", word.get_ref());
+            fault(self.path, self.line(word.span()), what, &format!("it can be {}", T::words()))
+        };
+        T::of_word(word.get_ref()).map(Some).ok_or_else(unknown)
     }
 
     fn plan(&self, channel: WrittenChannel) -> Result<(Plan, Vec<WrittenDecision>)> {

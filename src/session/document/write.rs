@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use super::{DELIMITERS, FORMAT};
+use super::FORMAT;
 use crate::param::{Param, Settings, Value};
 use crate::session::{Plan, Session, folder_of};
-use crate::track::Source;
+use crate::track::{Source, Worded};
 
 /// The session file for a session that lies at `path`. `texts` gives, for each plan, the texts of time and value of
 /// each decided row, in the order of the rows.
@@ -34,9 +34,14 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
             line(format!("{key} = {}", quoted(value)));
         }
     }
-    let delimiter = options.delimiter.and_then(|d| DELIMITERS.iter().find(|x| x.1 == d));
-    if let Some((word, _)) = delimiter {
-        line(format!("delimiter = {}", quoted(word)));
+    for (key, word) in [
+        ("delimiter", options.delimiter.and_then(Worded::word)),
+        ("encoding", options.encoding.and_then(Worded::word)),
+        ("time_unit", options.time_unit.and_then(Worded::word)),
+    ] {
+        if let Some(word) = word {
+            line(format!("{key} = {}", quoted(word)));
+        }
     }
     let switches = [
         ("decimal_comma", options.decimal_comma),

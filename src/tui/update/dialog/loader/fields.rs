@@ -1,6 +1,6 @@
 //! What can be told the loader: one row for each option.
 
-use crate::track::{Delimiter, LoadOptions};
+use crate::track::{LoadOptions, Worded};
 
 /// A field of the dialog.
 #[derive(Debug)]
@@ -67,8 +67,8 @@ pub static FIELDS: &[Field] = &[
     Field {
         name: "delimiter",
         help: "what stands between two cells",
-        text: |o| o.delimiter.map(|d| DELIMITERS.iter().find(|x| x.0 == d).map_or("another", |x| x.1).to_owned()),
-        step: |o, _, by| o.delimiter = next(&DELIMITERS.map(|d| d.0), o.delimiter, by),
+        text: |o| o.delimiter.and_then(Worded::word).map(str::to_owned),
+        step: |o, _, by| o.delimiter = stepped(o.delimiter, by),
         clear: |o| o.delimiter = None,
         take: None,
     },
@@ -106,16 +106,14 @@ pub static FIELDS: &[Field] = &[
     },
 ];
 
-const DELIMITERS: [(Delimiter, &str); 5] = [
-    (Delimiter::Byte(b','), "comma"),
-    (Delimiter::Byte(b';'), "semicolon"),
-    (Delimiter::Byte(b'\t'), "tab"),
-    (Delimiter::Byte(b'|'), "pipe"),
-    (Delimiter::Blanks, "blanks"),
-];
-
 fn yes(value: bool) -> String {
     if value { "yes" } else { "no" }.to_owned()
+}
+
+/// The next of the values that have a word, or the one before.
+fn stepped<T: Worded>(now: Option<T>, by: isize) -> Option<T> {
+    let values: Vec<T> = T::WORDS.iter().map(|(_, value)| *value).collect();
+    next(&values, now, by)
 }
 
 /// Columns by name, after a word of its own.
