@@ -3,6 +3,8 @@
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
 
+#[path = "pty/bytes.rs"]
+mod bytes;
 #[path = "pty/command_line.rs"]
 mod command_line;
 #[path = "pty/files.rs"]
@@ -300,67 +302,4 @@ fn without_colours_attributes_are_left() {
     assert!(!plain.iter().any(is_colour), "{plain:?}");
     // The same scan does find colours where there are some.
     assert!(run(&[]).1.iter().any(is_colour));
-}
-
-/// How many bytes it takes until `shown` is on the screen, with its result, after `keys`.
-fn bytes_for(terminal: &mut Terminal, keys: &str, shown: &str) -> usize {
-    let before = terminal.bytes();
-    terminal.keys(keys);
-    terminal.wait_for(shown);
-    terminal.settle();
-    terminal.bytes() - before
-}
-
-#[test]
-fn few_bytes_go_over_the_wire() {
-    let (folder, mut terminal) = workbench(WIDE);
-    // The advice comes when it comes: from here on, only keys change the screen.
-    terminal.wait_for("f takes k");
-    let next = bytes_for(&mut terminal, "n", "#91 ");
-    assert!(next < 1500, "the next flag takes {next} bytes");
-    // Another workbench starts, works and ends: all that time this one has nothing to say.
-    let before = terminal.bytes();
-    let mut other = Terminal::start(&folder.path(""), "demo.csv", WIDE, &[]);
-    other.settle();
-    other.keys("n");
-    other.wait_for("#91 ");
-    other.keys("q");
-    assert_eq!(other.end().0, 0);
-    assert_eq!(terminal.bytes(), before, "an idle workbench writes nothing");
-}
-
-#[test]
-fn a_threshold_step_keeps_to_the_bar_of_the_design() {
-    for (size, ready) in [(WIDE, "f takes k"), (COMPACT, "↓+")] {
-        let (_folder, mut terminal) = workbench(size);
-        terminal.wait_for(ready);
-        // Up and down the threshold by two steps: suspects come and go, within the rows of the queue too.
-        let (mut counted, mut k) = (0, 40);
-        for step in 0..60 {
-            let (key, next) = if step % 4 < 2 { (".", k + 1) } else { (",", k - 1) };
-            let frames = terminal.frames();
-            let shown = format!("k {}.{} → {}.{}", k / 10, k % 10, next / 10, next % 10);
-            let bytes = bytes_for(&mut terminal, key, &shown);
-            terminal.wait_until("what a step changes", |screen| screen.contents().contains(['−', '↓']));
-            k = next;
-            // On a busy machine the result comes so late that the step is drawn in parts: that one does not count.
-            if terminal.frames() == frames + 1 {
-                assert!(bytes < 400, "{shown} takes {bytes} bytes at {size:?}");
-                counted += 1;
-            }
-        }
-        assert!(counted > 0, "every step was drawn in parts");
-    }
-}
-
-#[test]
-fn a_burst_of_keys_is_drawn_in_few_frames() {
-    let (_folder, mut terminal) = workbench(WIDE);
-    terminal.wait_for("f takes k");
-    let frames = terminal.frames();
-    terminal.keys(&".".repeat(100));
-    terminal.wait_for("k 13.9 → 14.0");
-    terminal.settle();
-    let drawn = terminal.frames() - frames;
-    assert!(drawn < 50, "{drawn} frames for 100 keys that came at once");
 }

@@ -9,14 +9,14 @@ use super::message::Message;
 use super::model::Model;
 use crate::error::{Error, Result};
 use crate::job::Worker;
-use crate::session::Setup;
 use crate::session::sweep::{FROM, STEPS, Sweep, TO, grid, multiplier, sweep};
+use crate::session::{Detection, Setup};
 use crate::stop::Stop;
 use crate::track::{Samples, Track};
 
 mod steps;
 
-use steps::StepsJob;
+pub(super) use steps::StepsJob;
 pub use steps::{Step, Steps};
 
 /// On records up to this length the advice comes by itself; on longer ones it is asked for, since 48 judgements take
@@ -49,7 +49,7 @@ impl Advice {
 /// What to find out: what one step of the active knob changes, and the sweep where it is wanted.
 #[derive(Debug)]
 pub struct Advise {
-    steps: Option<StepsJob>,
+    steps: Option<(StepsJob, Arc<Detection>)>,
     wants_sweep: bool,
     track: Arc<Track>,
     plan: usize,
@@ -66,7 +66,7 @@ impl Advise {
         let known = state.advice.as_ref().is_some_and(|a| a.is_for(setup));
         let cheap = state.drawn.as_ref().is_some_and(|d| d.hidden.len() <= BY_ITSELF);
         Self {
-            steps: StepsJob::new(model, plan),
+            steps: StepsJob::beside(model, plan),
             wants_sweep: !known && (cheap || state.sweep_asked) && multiplier(setup).is_ok(),
             track: Arc::clone(&model.track),
             plan,
@@ -87,7 +87,7 @@ impl Advise {
     /// # Errors
     /// [`Error::Stopped`], and what the method cannot do under the settings.
     pub fn steps(&self, stop: &Stop) -> Result<Option<Steps>> {
-        self.steps.as_ref().map(|job| job.run(stop)).transpose()
+        self.steps.as_ref().map(|(job, now)| job.run(now, stop)).transpose()
     }
 
     /// Makes the sweep.

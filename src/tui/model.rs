@@ -304,11 +304,13 @@ impl Model {
         knobs.get(self.channels[plan].knob).or(knobs.last()).copied().unwrap_or(Knob::Method)
     }
 
-    /// What one step of the active knob of the channel on the screen changes, if that is known.
+    /// What one step of the active knob of the channel on the screen changes from the result on the screen, if that is
+    /// known.
     #[must_use]
     pub fn steps(&self) -> Option<&Steps> {
         let state = self.state();
-        state.steps.as_ref().filter(|s| !state.stale && s.is_for(&self.plan().setup, self.knob()))
+        let shown = &state.drawn.as_ref()?.outcome.detection.setup;
+        state.steps.as_ref().filter(|s| s.is_for(shown, self.knob()))
     }
 
     /// The advice on the multiplier of the channel on the screen, if it is there and holds for the setup as it is now.

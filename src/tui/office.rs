@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crossbeam_channel::Sender;
 
+use super::advice::StepsJob;
 use super::message::{Message, Output, OutputKind, Written};
 use super::model::Model;
 use super::words::counted;
@@ -30,7 +31,13 @@ pub struct Judge {
     previous: Option<Arc<Drawn>>,
     /// All channels that are judged together with this one, itself among them; empty when it is judged alone.
     together: Vec<(usize, Arc<Samples>)>,
+    /// What one step of the active knob changes, where that is to come with the result.
+    steps: Option<Box<StepsJob>>,
 }
+
+/// Samples up to which a result comes with what a step of the active knob changes: one frame tells all then. It takes
+/// two more judgements, which is nothing on a record of that length.
+const SHORT: usize = 20_000;
 
 impl Judge {
     /// The job for a plan of the model as it is now.
@@ -57,7 +64,16 @@ impl Judge {
             previous: state.drawn.clone(),
             together: (0..model.channels.len()).filter(shares).map(member).collect(),
             setup,
+            steps: None,
         }
+    }
+
+    /// The same with what a step of the active knob changes, on a record that is short.
+    #[must_use]
+    pub fn with_steps(self, model: &Model) -> Self {
+        let short = model.channels[self.plan].drawn.as_ref().is_some_and(|d| d.hidden.len() <= SHORT);
+        let steps = if short { StepsJob::new(model, self.plan).map(Box::new) } else { None };
+        Self { steps, ..self }
     }
 
     /// Does it.
@@ -111,6 +127,11 @@ impl Judge {
 pub fn judge(results: Sender<Message>) -> Worker<Judge> {
     Worker::new(move |generation, job: Judge, stop: &Stop| {
         let result = job.run(stop).map(Box::new);
+        if let (Some(steps), Ok(drawn)) = (&job.steps, &result)
+            && let Ok(steps) = steps.run(&drawn.outcome.detection, stop)
+        {
+            let _ = results.send(Message::Stepped { plan: job.plan, steps: Box::new(steps) });
+        }
         // Nobody listens any more when the program is about to end.
         let _ = results.send(Message::Analysed { generation, plan: job.plan, result });
     })

@@ -18,8 +18,8 @@ use super::update::update;
 use crate::error::Result;
 use crate::job::Worker;
 
-/// How long a frame waits for the result of what the user did.
-const FRAME: Duration = Duration::from_millis(16);
+/// How long a frame waits for the result of what the user did: as long as frames are apart by default.
+const FRAME: Duration = Duration::from_millis(33);
 
 /// Whether the loop goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -119,7 +119,7 @@ impl Outside {
                     // What the user waits for goes before advice.
                     self.advisor.cancel();
                     self.advising = false;
-                    model.awaited = Some(self.worker.submit(Judge::new(model, plan)));
+                    model.awaited = Some(self.worker.submit(Judge::new(model, plan).with_steps(model)));
                 }
                 Effect::Advise(plan) => {
                     let job = Advise::new(model, plan);

@@ -17,7 +17,7 @@ use ratatui::layout::Rect;
 use super::clipboard;
 use super::model::Model;
 use super::view::view;
-use super::wire::Wire;
+use super::wire::{Wire, plain_blanks};
 use crate::error::{Error, Result};
 
 /// A whole frame fits, so that it is one write.
@@ -58,7 +58,11 @@ impl Screen {
     /// Draws the model; terminals that can, show the frame at once.
     pub(super) fn draw(&mut self, model: &Model) -> Result<()> {
         queue!(self.0.backend_mut(), BeginSynchronizedUpdate).map_err(failed)?;
-        self.0.draw(|frame| view(model, frame)).map_err(failed)?;
+        let drawing = |frame: &mut ratatui::Frame<'_>| {
+            view(model, frame);
+            plain_blanks(frame.buffer_mut());
+        };
+        self.0.draw(drawing).map_err(failed)?;
         #[cfg(debug_assertions)]
         panic_on_demand();
         execute!(self.0.backend_mut(), EndSynchronizedUpdate).map_err(failed)

@@ -55,10 +55,9 @@ impl Steps {
 
 /// The judgements that it takes.
 #[derive(Debug)]
-pub(super) struct StepsJob {
+pub(in crate::tui) struct StepsJob {
     setup: Setup,
     key: &'static str,
-    now: Arc<Detection>,
     /// Row of each sample.
     rows: Vec<u32>,
     up: Option<(Value, Judge)>,
@@ -68,13 +67,21 @@ pub(super) struct StepsJob {
 impl StepsJob {
     /// The job for the active knob of a plan; none when the knob has no bearing on the flags, when there is no result
     /// to compare with, or when the answer is there.
-    pub(super) fn new(model: &Model, plan: usize) -> Option<Self> {
+    pub(super) fn beside(model: &Model, plan: usize) -> Option<(Self, Arc<Detection>)> {
+        let state = &model.channels[plan];
+        let now = Arc::clone(&state.drawn.as_ref()?.outcome.detection);
+        if state.stale || !now.setup.same_detection(&model.session.plans[plan].setup) {
+            return None;
+        }
+        Self::new(model, plan).map(|job| (job, now))
+    }
+
+    /// The same for the result that the settings as they are now will have.
+    pub(in crate::tui) fn new(model: &Model, plan: usize) -> Option<Self> {
         let setup = &model.session.plans[plan].setup;
         let state = &model.channels[plan];
         let Knob::Detection(param) = model.knob_of(plan) else { return None };
-        let known = state.steps.as_ref().is_some_and(|s| s.is_for(setup, Knob::Detection(param)));
-        let now = Arc::clone(&state.drawn.as_ref()?.outcome.detection);
-        if known || state.stale || !now.setup.same_detection(setup) {
+        if state.steps.as_ref().is_some_and(|s| s.is_for(setup, Knob::Detection(param))) {
             return None;
         }
         let value = setup.settings.get(param.key)?;
@@ -86,10 +93,11 @@ impl StepsJob {
         };
         let series = state.samples.series(&model.track.channels[state.channel], &model.track.time);
         let rows = (0..series.len()).map(|i| u32::try_from(series.row(i)).unwrap_or(u32::MAX)).collect();
-        Some(Self { setup: setup.clone(), key: param.key, now, rows, up: judge(1), down: judge(-1) })
+        Some(Self { setup: setup.clone(), key: param.key, rows, up: judge(1), down: judge(-1) })
     }
 
-    pub(super) fn run(&self, stop: &Stop) -> Result<Steps> {
+    /// Does it, compared with what the method says `now`.
+    pub(in crate::tui) fn run(&self, now: &Detection, stop: &Stop) -> Result<Steps> {
         let step = |to: &Option<(Value, Judge)>| -> Result<Option<Step>> {
             let Some((value, judge)) = to else { return Ok(None) };
             let there = judge.detection(stop)?;
@@ -99,7 +107,7 @@ impl StepsJob {
                 let new = pairs.filter(|((a, b), _)| **a != Verdict::Outlier && **b == Verdict::Outlier);
                 new.map(|(_, row)| *row).collect::<Vec<u32>>()
             };
-            Ok(Some(Step { value: *value, gained: rows(&self.now, &there), lost: rows(&there, &self.now) }))
+            Ok(Some(Step { value: *value, gained: rows(now, &there), lost: rows(&there, now) }))
         };
         Ok(Steps { setup: self.setup.clone(), key: self.key, up: step(&self.up)?, down: step(&self.down)? })
     }

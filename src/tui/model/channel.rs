@@ -30,6 +30,8 @@ pub struct ChannelState {
     pub groups: Vec<Group>,
     /// Position of the flag in the first row of the queue's panel.
     pub top: u32,
+    /// The ratio at the upper edge of the residual's picture, where it has been drawn.
+    pub residual_top: f64,
     /// The counts along the multiplier, for the setup they were found for.
     pub advice: Option<Advice>,
     /// True when they were asked for, however long they take.
@@ -108,6 +110,7 @@ impl ChannelState {
             queue: Vec::new(),
             groups: Vec::new(),
             top: 0,
+            residual_top: 0.0,
             advice: None,
             sweep_asked: false,
             steps: None,

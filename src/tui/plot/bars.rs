@@ -17,11 +17,20 @@ pub(super) struct Bar {
     pub(super) beyond: bool,
 }
 
+/// Columns from one dot of a dotted line to the next. A line that is turned by a knob moves from row to row, and each
+/// of its cells goes over the wire twice then.
+const APART: u16 = 4;
+
+/// Whether a dotted line has a dot in a column.
+pub(super) fn is_dotted(column: u16) -> bool {
+    column.is_multiple_of(APART)
+}
+
 /// How bars are drawn.
 pub(super) struct Bars<'a> {
     pub(super) theme: &'a Theme,
     pub(super) glyphs: Glyphs,
-    /// The row of a dotted line behind the bars.
+    /// The row of a dotted line behind the bars ([`is_dotted`]).
     pub(super) line: Option<u16>,
 }
 
@@ -39,7 +48,7 @@ impl Bars<'_> {
             let style = if bar.over { self.theme.over } else { self.theme.dim };
             let (glyph, style) = match fill {
                 _ if bar.beyond && row == 0 => (self.glyphs.beyond(true, false), self.theme.over),
-                0 if Some(row) == self.line => (self.glyphs.threshold(), self.theme.threshold),
+                0 if Some(row) == self.line && is_dotted(column) => (self.glyphs.threshold(), self.theme.threshold),
                 0 => (' ', Style::new()),
                 _ => (glyph, style),
             };

@@ -8,7 +8,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::widgets::Widget;
 
-use super::bars::{Bar, Bars};
+use super::bars::{Bar, Bars, is_dotted};
 use super::columns::Columns;
 use super::dots::{DOTS_PER_COLUMN, Dots};
 use super::flags::FlagState;
@@ -21,6 +21,9 @@ use crate::tui::theme::Theme;
 
 /// Samples per column of cells up to which each is drawn with its sign.
 const SIGNED_UP_TO: usize = 4;
+
+/// Parts of the height at which the threshold may stand before the scale is changed.
+const ROOM: std::ops::RangeInclusive<f64> = 0.15..=0.8;
 
 /// The residual widget: the ratio (raw value minus expected value) / unit, with a dotted line at the threshold from
 /// which samples are flagged. Where the unit is the scale that the threshold multiplies, turning the threshold moves
@@ -52,6 +55,13 @@ impl ResidualPlot<'_> {
     #[must_use]
     pub fn top_for(threshold: f64) -> f64 {
         residual_top(threshold)
+    }
+
+    /// The ratio for the upper edge after another: the same as long as the threshold has room under it and is not
+    /// lost at the bottom, so that turning the threshold moves the line and not everything else.
+    #[must_use]
+    pub fn top_after(held: f64, threshold: f64) -> f64 {
+        if ROOM.contains(&(threshold / held)) { held } else { Self::top_for(threshold) }
     }
 
     /// The extremes of `len` ratios.
@@ -153,7 +163,7 @@ impl ResidualPlot<'_> {
                     (self.glyphs.flag(FlagState::Unreviewed), self.theme.over)
                 } else if mask != 0 {
                     (self.glyphs.dots(mask), self.theme.raw)
-                } else if lines.contains(&Some(row)) {
+                } else if lines.contains(&Some(row)) && is_dotted(column) {
                     (self.glyphs.threshold(), self.theme.threshold)
                 } else {
                     (' ', Style::new())

@@ -7,6 +7,7 @@ use super::super::action::Action;
 use super::super::files::Task;
 use super::super::message::{Effect, OutputKind, Written};
 use super::super::model::{Dialog, Model, Overlay, PromptKind, Tone};
+use super::super::plot::ResidualPlot;
 use super::{dialog, prompt, queue};
 use crate::error::{Error, Result};
 use crate::plot::Drawn;
@@ -118,6 +119,7 @@ fn again(what: &Written, path: &Path) -> Effect {
 pub(super) fn arrange(model: &mut Model, plan: usize, mut drawn: Drawn) {
     let state = &mut model.channels[plan];
     state.flags = std::mem::take(&mut drawn.arranged);
+    state.residual_top = ResidualPlot::top_after(state.residual_top, drawn.threshold);
     state.results += 1;
     state.drawn = Some(Arc::new(drawn));
     state.stale = false;

@@ -49,7 +49,7 @@ impl Plots<'_> {
         let whole =
             pyramid.span_over(|i| ratio(i).map_or(crate::plot::Span::EMPTY, crate::plot::Span::at), 0..usize::MAX);
         let worst = if log && !whole.is_empty() { whole.high.abs().max(whole.low.abs()) } else { 0.0 };
-        let top = worst.max(ResidualPlot::top_for(threshold));
+        let top = worst.max(ResidualPlot::top_after(state.residual_top, threshold));
         let (theme, glyphs, cursor) = (&model.theme, model.glyphs, Some(state.cursor));
         let widget = ResidualPlot { columns, ratio: &ratio, pyramid, threshold, top, log, theme, glyphs, cursor };
         let what = if widget.is_signed() { "in" } else { "worst per column in" };

@@ -187,7 +187,7 @@ fn flagged(model: &Model, drawn: &Drawn) -> Vec<(String, bool)> {
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
     let share = if n.present > 0 { 100.0 * n.flagged as f64 / n.present as f64 } else { 0.0 };
     let mut lines = vec![String::new(), format!("flagged        {} ({share:.2} %)", thousands(n.flagged))];
-    lines.extend(steps(model, n.flagged));
+    lines.extend(steps(model, drawn));
     lines.into_iter().map(|line| (line, false)).collect()
 }
 
@@ -208,10 +208,12 @@ fn counts(drawn: &Drawn, width: usize) -> Vec<(String, bool)> {
     lines.into_iter().map(|line| (line, false)).collect()
 }
 
-/// How many flags there are one step of the active knob up and down, and how many of them come and go.
-fn steps(model: &Model, flagged: usize) -> Vec<String> {
+/// How many flags there are one step of the active knob up and down from the result on the screen, and how many of them
+/// come and go.
+fn steps(model: &Model, drawn: &Drawn) -> Vec<String> {
+    let flagged = drawn.outcome.counts.flagged;
     let Knob::Detection(param) = model.knob() else { return Vec::new() };
-    let Some(now) = model.plan().setup.settings.get(param.key) else { return Vec::new() };
+    let Some(now) = drawn.outcome.detection.setup.settings.get(param.key) else { return Vec::new() };
     let decisions = &model.plan().decisions;
     let known = model.steps();
     let row = |steps: i64, step: Option<&Step>| {

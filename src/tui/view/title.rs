@@ -65,7 +65,9 @@ fn right_side(model: &Model) -> Line<'static> {
             for flag in FlagState::BY_URGENCY {
                 let n = by_state[flag.index()];
                 if n > 0 && !(flag == FlagState::Unreviewed && n == counts.flagged) {
-                    spans.push(Span::styled(format!(" {}{}", glyphs.flag(flag), thousands(n)), theme.flag(flag)));
+                    // A count has room for a second digit, so that what stands before it seldom moves.
+                    let count = format!(" {}{:<2}", glyphs.flag(flag), thousands(n));
+                    spans.push(Span::styled(count, theme.flag(flag)));
                 }
             }
             if counts.conflicts > 0 {

@@ -1,0 +1,287 @@
+//! Cells as bytes.
+
+use ratatui::buffer::{Buffer, Cell};
+use unicode_width::UnicodeWidthStr;
+
+use super::pen::{PLAIN, Pen, change};
+use super::shown::Shown;
+
+/// A symbol to be put at a column and a row, both from 0.
+#[derive(Clone, Copy)]
+struct Put<'a> {
+    x: u16,
+    y: u16,
+    symbol: &'a str,
+    pen: Pen,
+}
+
+/// Cells up to which what lies between is written again: a move costs as much.
+const BRIDGE: u16 = 3;
+
+/// Where the cursor is.
+#[derive(Clone, Copy)]
+struct At {
+    x: u16,
+    y: u16,
+    /// False when a symbol was put since the last absolute move that is two columns wide in some terminals: no other
+    /// row is reached from there.
+    sure: bool,
+}
+
+/// Takes the foreground away from blanks, on which it cannot be seen: one that only lost its style does not go over
+/// the wire.
+pub(in crate::tui) fn plain_blanks(buffer: &mut Buffer) {
+    for cell in &mut buffer.content {
+        if cell.symbol() == " " && Pen::of(cell).hides_foreground() {
+            (cell.fg, cell.underline_color, cell.modifier) = (PLAIN.fg, PLAIN.line, PLAIN.modifier);
+        }
+    }
+}
+
+/// The bytes that put cells (column, row, both from 0; in the order of rows) on a terminal whose attributes are reset,
+/// and leave them reset: row by row, or look by look where that is shorter, since a few changes here and there take more
+/// attributes than moves. What is `shown` there is brought up to date.
+pub(super) fn encoded<'a>(content: impl Iterator<Item = (u16, u16, &'a Cell)>, shown: &mut Shown) -> String {
+    let mut puts: Vec<Put<'a>> =
+        content.map(|(x, y, cell)| Put { x, y, symbol: cell.symbol(), pen: Pen::of(cell) }).collect();
+    blend_blanks(&mut puts);
+    // Before anything is encoded: what lies between two puts is written again as it will be in the end.
+    puts.iter().for_each(|put| shown.put(put.x, put.y, put.symbol, put.pen));
+    let by_row = in_order(&puts, shown);
+    let mut looks: Vec<Pen> = Vec::new();
+    for put in &puts {
+        if !looks.contains(&put.pen) {
+            looks.push(put.pen);
+        }
+    }
+    // Plain cells first: they need no attributes at all.
+    puts.sort_by_key(|put| if put.pen == PLAIN { None } else { looks.iter().position(|look| *look == put.pen) });
+    let by_look = in_order(&puts, shown);
+    if by_look.len() < by_row.len() { by_look } else { by_row }
+}
+
+/// Gives a blank beside another cell the look of that one, where it looks the same.
+fn blend_blanks(puts: &mut [Put<'_>]) {
+    for i in 1..puts.len() {
+        let (before, put) = (puts[i - 1], puts[i]);
+        let beside = (before.x + 1, before.y) == (put.x, put.y) && before.pen.bg == put.pen.bg;
+        if beside && put.symbol == " " && put.pen.hides_foreground() && before.pen.hides_foreground() {
+            puts[i].pen = before.pen;
+        }
+    }
+}
+
+fn in_order(puts: &[Put<'_>], shown: &Shown) -> String {
+    let mut out = String::new();
+    let mut pen = PLAIN;
+    let mut at: Option<At> = None;
+    for &Put { x, y, symbol, pen: next } in puts {
+        let near = at.filter(|at| at.y == y && (at.x..=at.x + BRIDGE).contains(&x));
+        let across = |pen: Pen| near.and_then(|at| shown.text(at.x..x, y, pen).map(|text| (text, at.sure)));
+        let sure = match across(pen) {
+            Some((text, sure)) => {
+                out.push_str(&text);
+                sure
+            }
+            None => step(&mut out, at, (x, y), shown.columns()),
+        };
+        if next != pen {
+            change(&mut out, pen, next);
+            pen = next;
+        }
+        out.push_str(symbol);
+        let width = u16::try_from(symbol.width()).unwrap_or(1).max(1);
+        at = Some(At { x: x.saturating_add(width), y, sure: sure && symbol.is_ascii() });
+    }
+    if pen != PLAIN {
+        out.push_str("\x1b[0m");
+    }
+    out
+}
+
+/// Moves the cursor the shortest way; gives whether it is certain then where it is. At the right edge a terminal may
+/// not be where it seems: from there, and from where it is not certain, other rows are not reached by steps.
+fn step(out: &mut String, from: Option<At>, (x, y): (u16, u16), columns: u16) -> bool {
+    let line = u32::from(y) + 1;
+    let absolute = if x == 0 { format!("\x1b[{line}H") } else { format!("\x1b[{line};{}H", u32::from(x) + 1) };
+    let steps = from.and_then(|at| {
+        let certain = at.sure && at.x < columns;
+        let forward = at.y == y && at.x < x;
+        (forward || certain).then(|| (format!("{}{}", rows(at.y, y), sideways(at.x, x)), at.sure))
+    });
+    match steps {
+        Some((steps, sure)) if steps.len() < absolute.len() => {
+            out.push_str(&steps);
+            sure
+        }
+        _ => {
+            out.push_str(&absolute);
+            true
+        }
+    }
+}
+
+/// Up or down in the same column. A line feed is that alone in raw mode, and there is a row below to go to.
+fn rows(from: u16, to: u16) -> String {
+    match (to.saturating_sub(from), from.saturating_sub(to)) {
+        (0, 0) => String::new(),
+        (down @ 1..=3, _) => "\n".repeat(usize::from(down)),
+        (0, 1) => "\x1b[A".to_owned(),
+        (0, up) => format!("\x1b[{up}A"),
+        (down, _) => format!("\x1b[{down}B"),
+    }
+}
+
+/// Left or right in the same row.
+fn sideways(from: u16, to: u16) -> String {
+    match (to.saturating_sub(from), from.saturating_sub(to)) {
+        (0, 0) => String::new(),
+        _ if to == 0 => "\r".to_owned(),
+        (1, _) => "\x1b[C".to_owned(),
+        (0, left @ 1..=3) => "\x08".repeat(usize::from(left)),
+        (0, left) => format!("\x1b[{left}D"),
+        (right, _) => format!("\x1b[{right}C"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use ratatui::layout::Rect;
+    use ratatui::style::{Color, Modifier, Style};
+
+    use super::*;
+
+    const AREA: Rect = Rect { x: 0, y: 0, width: 30, height: 6 };
+
+    fn colors() -> impl Strategy<Value = Color> {
+        prop_oneof![
+            Just(Color::Reset),
+            Just(Color::Red),
+            Just(Color::LightCyan),
+            any::<u8>().prop_map(Color::Indexed),
+            any::<[u8; 3]>().prop_map(|[r, g, b]| Color::Rgb(r, g, b)),
+        ]
+    }
+
+    fn cells() -> impl Strategy<Value = Vec<(usize, char, Style)>> {
+        let modifiers = vec![
+            Modifier::empty(),
+            Modifier::BOLD,
+            Modifier::DIM,
+            Modifier::REVERSED,
+            Modifier::ITALIC | Modifier::BOLD,
+            Modifier::UNDERLINED | Modifier::DIM,
+        ];
+        let style = (colors(), colors(), prop::sample::select(modifiers))
+            .prop_map(|(fg, bg, m)| Style::new().fg(fg).bg(bg).add_modifier(m));
+        prop::collection::vec((0..180_usize, prop::sample::select(vec!['a', '⣿', '●', ' ']), style), 0..60)
+    }
+
+    /// What a terminal makes of a colour.
+    fn seen(color: Color) -> vt100::Color {
+        match color {
+            Color::Reset => vt100::Color::Default,
+            Color::Red => vt100::Color::Idx(1),
+            Color::LightCyan => vt100::Color::Idx(14),
+            Color::Indexed(n) => vt100::Color::Idx(n),
+            Color::Rgb(r, g, b) => vt100::Color::Rgb(r, g, b),
+            other => panic!("{other} is not drawn here"),
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_terminal_shows_the_cells_after_any_number_of_frames(frames in prop::collection::vec(cells(), 1..5)) {
+            let (rows, columns) = (AREA.height.try_into().unwrap(), AREA.width.try_into().unwrap());
+            let mut terminal = vt100::Parser::new(rows, columns, 0);
+            let mut before = Buffer::empty(AREA);
+            let mut shown = Shown::of(AREA.width, AREA.height);
+            for frame in frames {
+                let mut after = before.clone();
+                for (at, glyph, style) in frame {
+                    let cell = &mut after[((at % 30) as u16, (at / 30) as u16)];
+                    cell.reset();
+                    cell.set_char(glyph).set_style(style);
+                }
+                plain_blanks(&mut after);
+                terminal.process(encoded(before.diff(&after).into_iter(), &mut shown).as_bytes());
+                for (x, y) in AREA.positions().map(|p| (p.x, p.y)) {
+                    let (cell, shown) = (&after[(x, y)], terminal.screen().cell(y, x).unwrap());
+                    let contents = if shown.has_contents() { shown.contents() } else { " " };
+                    prop_assert_eq!(contents, cell.symbol());
+                    prop_assert_eq!(shown.bgcolor(), seen(cell.bg));
+                    prop_assert_eq!(shown.inverse(), cell.modifier.contains(Modifier::REVERSED));
+                    prop_assert_eq!(shown.underline(), cell.modifier.contains(Modifier::UNDERLINED));
+                    if contents == " " && Pen::of(cell).hides_foreground() {
+                        continue;
+                    }
+                    prop_assert_eq!(shown.fgcolor(), seen(cell.fg));
+                    let is = |m| cell.modifier.contains(m);
+                    prop_assert_eq!((shown.bold(), shown.dim()), (is(Modifier::BOLD), is(Modifier::DIM)));
+                    prop_assert_eq!(shown.italic(), is(Modifier::ITALIC));
+                }
+                before = after;
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_near_costs_little() {
+        let mut buffer = Buffer::empty(AREA);
+        buffer.set_string(3, 2, "12", Style::new().fg(Color::Indexed(245)));
+        buffer.set_string(6, 2, "3", Style::new().fg(Color::Indexed(245)).add_modifier(Modifier::BOLD));
+        let bytes = encoded(Buffer::empty(AREA).diff(&buffer).into_iter(), &mut Shown::of(AREA.width, AREA.height));
+        assert_eq!(bytes, "\x1b[3;4H\x1b[38;5;245m12\x1b[C\x1b[1m3\x1b[0m");
+    }
+
+    #[test]
+    fn what_lies_between_two_changes_is_written_again_where_that_is_shorter() {
+        let grey = Style::new().fg(Color::Indexed(245));
+        let mut shown = Shown::of(AREA.width, AREA.height);
+        let mut before = Buffer::empty(AREA);
+        before.set_string(0, 0, "k 4.0 is 4.1", grey);
+        plain_blanks(&mut before);
+        encoded(Buffer::empty(AREA).diff(&before).into_iter(), &mut shown);
+        let mut after = before.clone();
+        after.set_string(0, 0, "k 5.3 is 5.4", grey);
+        plain_blanks(&mut after);
+        let bytes = encoded(before.diff(&after).into_iter(), &mut shown);
+        assert_eq!(bytes, "\x1b[1;3H\x1b[38;5;245m5.3\x1b[4C5.4\x1b[0m");
+    }
+
+    #[test]
+    fn rows_of_a_list_are_reached_by_steps_where_the_cursor_is_certain() {
+        let mut buffer = Buffer::empty(AREA);
+        buffer.set_string(20, 1, "12", Style::new());
+        buffer.set_string(20, 2, "13", Style::new());
+        buffer.set_string(0, 3, "x", Style::new());
+        let encode = |buffer: &Buffer| {
+            encoded(Buffer::empty(AREA).diff(buffer).into_iter(), &mut Shown::of(AREA.width, AREA.height))
+        };
+        assert_eq!(encode(&buffer), "\x1b[2;21H12\n\x08\x0813\n\rx");
+        // After a glyph that some terminals draw two columns wide, and at the right edge, the way is absolute.
+        let mut buffer = Buffer::empty(AREA);
+        buffer.set_string(20, 1, "●", Style::new());
+        buffer.set_string(20, 2, "13", Style::new());
+        buffer.set_string(29, 3, "1", Style::new());
+        buffer.set_string(29, 4, "2", Style::new());
+        assert_eq!(encode(&buffer), "\x1b[2;21H●\x1b[3;21H13\n\x1b[7C1\x1b[5;30H2");
+    }
+
+    #[test]
+    fn a_blank_costs_no_look_of_its_own() {
+        let grey = Style::new().fg(Color::Indexed(245));
+        let mut buffer = Buffer::empty(AREA);
+        buffer.set_string(0, 0, "a b", grey);
+        let mut blank = buffer.clone();
+        blank.set_string(0, 0, "a  ", Style::new().fg(Color::Red));
+        for buffer in [&mut buffer, &mut blank] {
+            plain_blanks(buffer);
+        }
+        let bytes =
+            |from: &Buffer, to: &Buffer| encoded(from.diff(to).into_iter(), &mut Shown::of(AREA.width, AREA.height));
+        assert_eq!(bytes(&blank, &buffer), "\x1b[1H\x1b[38;5;245ma\x1b[Cb\x1b[0m");
+        assert_eq!(bytes(&Buffer::empty(AREA), &buffer), "\x1b[1H\x1b[38;5;245ma\x1b[Cb\x1b[0m");
+    }
+}
