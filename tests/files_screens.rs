@@ -10,9 +10,9 @@ use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
 use wildpoint::error::Error;
-use wildpoint::session::{Session, Setup};
+use wildpoint::session::{Analysed, Session, Setup, document};
 use wildpoint::stop::Stop;
-use wildpoint::track::{LoadOptions, Source, load};
+use wildpoint::track::{Encoding, LoadOptions, Source, load};
 use wildpoint::tui::files::{FileEntry, FileKind, Glance, Listing, News, Request, Seen, Task};
 use wildpoint::tui::message::{Effect, Message, Output, OutputKind, Written};
 use wildpoint::tui::model::{Model, Overlay};
@@ -253,6 +253,49 @@ fn the_loader_shows_what_its_options_make_of_the_record() {
 }
 
 #[test]
+fn every_field_of_the_loader_can_be_reached_at_the_least_size() {
+    let mut bench = Bench::new().size((40, 10));
+    bench.command("loader");
+    let told = LoadOptions { time: Some("t_s".into()), ..LoadOptions::default() };
+    let glance = Glance { source: Source::demo(), options: told.clone() };
+    bench.news(News::Seen { glance, result: Ok(seen(&told)) });
+    for field in wildpoint::tui::update::FIELDS {
+        let frame = bench.frame();
+        assert!(frame.contains(&format!("> {}", field.name)) && frame.contains("Enter loads it so"), "{frame}");
+        bench.key(KeyCode::Down);
+    }
+    assert!(bench.frame().contains("> time column"));
+}
+
+#[test]
+fn track_and_encoding_are_told_and_go_into_the_session() {
+    let mut bench = Bench::new();
+    bench.command("loader");
+    let told = LoadOptions { time: Some("t_s".into()), ..LoadOptions::default() };
+    let glance = Glance { source: Source::demo(), options: told.clone() };
+    bench.news(News::Seen { glance, result: Ok(seen(&told)) });
+    (0..3).for_each(|_| drop(bench.key(KeyCode::Down)));
+    bench.typed("ealt_m");
+    let options = LoadOptions { track: Some("alt_m".into()), ..told };
+    let glance = Glance { source: Source::demo(), options: options.clone() };
+    assert_eq!(bench.key(KeyCode::Enter), [Effect::Files(Task::Look(glance))]);
+    // The encoding is the last field; after recognised and UTF-8 comes Latin-1.
+    (0..4).for_each(|_| drop(bench.key(KeyCode::Up)));
+    bench.key(KeyCode::Right);
+    bench.key(KeyCode::Right);
+    assert!(bench.frame().contains("> encoding         latin-1"), "{}", bench.frame());
+    let options = LoadOptions { encoding: Some(Encoding::Latin1), ..options };
+    let request = Request { source: Source::demo(), options: options.clone(), again: true };
+    assert_eq!(bench.key(KeyCode::Enter), [Effect::Files(Task::Open { ticket: 1, request })]);
+    let mut session = bench.0.session.clone();
+    session.data.options = options;
+    let analysed = Analysed::of(&session, &bench.0.track, &Stop::never()).unwrap();
+    let text = document(&mut session, &bench.0.track, &analysed, "s.toml".as_ref()).unwrap();
+    let lines = ["track = \"alt_m\"", "encoding = \"latin-1\""];
+    assert!(lines.iter().all(|line| text.lines().any(|l| l == *line)), "{text}");
+}
+
+#[test]
 fn a_changed_option_is_looked_at_and_taken_with_enter() {
     let mut bench = Bench::new();
     bench.command("loader");
@@ -270,7 +313,7 @@ fn a_changed_option_is_looked_at_and_taken_with_enter() {
     bench.news(News::Seen { glance, result: Err(e) });
     assert!(bench.frame().contains("these are no times; choose another column"), "{}", bench.frame());
     // Missing markers are typed.
-    (0..3).for_each(|_| drop(bench.key(KeyCode::Down)));
+    (0..5).for_each(|_| drop(bench.key(KeyCode::Down)));
     bench.typed("e-99, x");
     bench.key(KeyCode::Enter);
     let options = LoadOptions { missing: vec!["-99".into(), "x".into()], ..options };
@@ -373,7 +416,7 @@ fn dialogs_are_drawn_at_any_size_and_in_ascii() {
         let mut frames = vec![ascii.frame()];
         ascii.key(KeyCode::Tab);
         ascii.news(News::Seen { glance: Glance::file(DEMO.into()), result: Ok(seen(&LoadOptions::default())) });
-        (0..8).for_each(|_| drop(ascii.key(KeyCode::Down)));
+        (0..10).for_each(|_| drop(ascii.key(KeyCode::Down)));
         assert!(
             ascii.frame().contains("> order of dates"),
             "the field under the cursor is in sight\n{}",

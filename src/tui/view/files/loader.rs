@@ -14,6 +14,8 @@ use crate::track::printable;
 
 /// Width of the names of fields.
 const NAMES: usize = 17;
+/// Rows below the fields for what they make of the record.
+const BELOW: u16 = 9;
 /// Width of a column of the first rows at most.
 const CELL: usize = 16;
 
@@ -21,16 +23,16 @@ pub(super) fn draw(model: &Model, form: &LoaderForm, area: Rect, buffer: &mut Bu
     let title = format!("how to load {}", fit(&printable(&form.source.name()), 40));
     let inside = popup(model, &title, (area.width, area.height), area, buffer);
     let width = usize::from(inside.width);
-    let mut lines: Vec<Line<'static>> = (0..FIELDS.len()).map(|at| field(model, form, at, width)).collect();
+    let inside = fields(model, form, inside, buffer);
+    let mut lines: Vec<Line<'static>> = Vec::new();
     let theme = &model.theme;
     let what = if form.again {
         "Enter loads it so; settings stay, and decisions where the rows are the same."
     } else {
         "Enter opens it so."
     };
-    lines.push(Line::styled(what, theme.dim));
-    let state = if form.stale { "looking …" } else { "" };
-    lines.push(Line::styled(state, theme.warning));
+    let (what, style) = if form.stale { ("looking …", theme.warning) } else { (what, theme.dim) };
+    lines.push(Line::styled(what, style));
     if let Some(Ok(seen)) = &form.seen {
         // Little room is for what is wrong first, then for the rows.
         let warnings = seen.warnings.iter().take(4).flat_map(|w| super::wrapped(w, width, theme.warning));
@@ -40,9 +42,20 @@ pub(super) fn draw(model: &Model, form: &LoaderForm, area: Rect, buffer: &mut Bu
     } else {
         lines.extend(known(model, form.seen.as_ref(), width));
     }
-    // Where all does not fit, the field under the cursor does.
-    let from = (form.choice + 2).saturating_sub(usize::from(inside.height));
-    rows(model, lines, from, inside, buffer);
+    rows(model, lines, 0, inside, buffer);
+}
+
+/// Draws the fields, as many of them as leave room for what they make of the record; gives that room. Where not all of
+/// them fit, they scroll with the one that is chosen.
+fn fields(model: &Model, form: &LoaderForm, inside: Rect, buffer: &mut Buffer) -> Rect {
+    let most = u16::try_from(FIELDS.len()).unwrap_or(u16::MAX);
+    let height = inside.height.saturating_sub(BELOW).max(inside.height / 2).clamp(inside.height.min(1), most);
+    let lines = (0..FIELDS.len()).map(|at| field(model, form, at, usize::from(inside.width))).collect();
+    // The one after it, too, so that what lies below is seen to be there.
+    let last = (form.choice + 2).min(FIELDS.len());
+    let from = last.saturating_sub(usize::from(height)).min(form.choice);
+    rows(model, lines, from, Rect { height, ..inside }, buffer);
+    Rect { y: inside.y + height, height: inside.height - height, ..inside }
 }
 
 fn field(model: &Model, form: &LoaderForm, at: usize, width: usize) -> Line<'static> {

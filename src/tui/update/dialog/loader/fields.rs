@@ -38,6 +38,14 @@ pub static FIELDS: &[Field] = &[
         take: Some(|o, text| o.time = told(text)),
     },
     Field {
+        name: "time unit",
+        help: "of times that are numbers",
+        text: |o| o.time_unit.and_then(Worded::word).map(str::to_owned),
+        step: |o, _, by| o.time_unit = stepped(o.time_unit, by),
+        clear: |o| o.time_unit = None,
+        take: None,
+    },
+    Field {
         name: "channels",
         help: "columns of numbers, commas between them",
         text: |o| (!o.channels.is_empty()).then(|| o.channels.join(", ")),
@@ -47,6 +55,14 @@ pub static FIELDS: &[Field] = &[
         },
         clear: |o| o.channels.clear(),
         take: Some(|o, text| o.channels = list(text)),
+    },
+    Field {
+        name: "track column",
+        help: "the id that tells several tracks in one table apart",
+        text: |o| o.track.clone(),
+        step: |o, columns, by| o.track = next(&named(columns, None), o.track.clone(), by),
+        clear: |o| o.track = None,
+        take: Some(|o, text| o.track = told(text)),
     },
     Field {
         name: "truth column",
@@ -102,6 +118,14 @@ pub static FIELDS: &[Field] = &[
         text: |o| o.day_first.map(|d| if d { "day first" } else { "month first" }.to_owned()),
         step: |o, _, by| o.day_first = next(&[true, false], o.day_first, by),
         clear: |o| o.day_first = None,
+        take: None,
+    },
+    Field {
+        name: "encoding",
+        help: "how bytes are read as text",
+        text: |o| o.encoding.and_then(Worded::word).map(str::to_owned),
+        step: |o, _, by| o.encoding = stepped(o.encoding, by),
+        clear: |o| o.encoding = None,
         take: None,
     },
 ];
