@@ -15,7 +15,7 @@ use crate::track::printable;
 /// Width of the names of fields.
 const NAMES: usize = 17;
 /// Rows below the fields for what they make of the record.
-const BELOW: u16 = 9;
+const BELOW: u16 = 12;
 /// Width of a column of the first rows at most.
 const CELL: usize = 16;
 
