@@ -44,7 +44,8 @@ pub enum Way {
 /// Values at the times `at`, which lie between `before` and `after`; none when there are too few samples for it.
 pub type Interpolate = fn(around: &Around<'_>, at: &[f64], settings: &Settings) -> Option<Vec<f64>>;
 
-/// The accepted samples (present and not outliers) of a segment on the two sides of a hole, in order of time.
+/// The accepted samples (present and not outliers) of a segment on the two sides of a hole, in order of time; neither
+/// side is empty.
 #[derive(Debug, Clone, Copy)]
 pub struct Around<'a> {
     /// Those before it: times and values; the last is the nearest.
@@ -341,5 +342,31 @@ mod tests {
         let got = repaired(&[3, 4, 30], &[("method", "polynomial")]);
         assert!(got[0].is_nan() && got[1].is_nan() && got[2].is_finite());
         assert!(repaired(&[4], &[("method", "polynomial")])[0].is_finite());
+        // 40 samples: three lie after position 36, four after 35.
+        assert!(repaired(&[36], &[("method", "polynomial")])[0].is_nan());
+        assert!(repaired(&[35], &[("method", "polynomial")])[0].is_finite());
+    }
+
+    #[test]
+    fn no_repair_extrapolates_past_the_ends() {
+        for method in ["linear", "spline", "polynomial"] {
+            assert!(repaired(&[0, 1, 38, 39], &[("method", method)]).iter().all(|v| v.is_nan()), "{method}");
+        }
+    }
+
+    #[test]
+    fn a_repair_is_found_by_its_id_and_a_knob_matters_to_those_that_have_it() {
+        assert_eq!(find("spline").unwrap().id, "spline");
+        assert!(find("splin").unwrap_err().to_string().contains("did you mean spline?"));
+        // methods.md, section 8: what is removed is not filled; anchors are the spline's, order and points the
+        // polynomial's.
+        let matter = |method: &str| -> Vec<&str> {
+            let settings = settings(&[("method", method)]);
+            PARAMS.iter().filter(|p| (p.matters)(&settings)).map(|p| p.key).collect()
+        };
+        assert_eq!(matter("remove"), ["method", "fill_gaps"]);
+        assert_eq!(matter("linear"), ["method", "max_fill", "fill_gaps"]);
+        assert_eq!(matter("spline"), ["method", "max_fill", "fill_gaps", "anchors"]);
+        assert_eq!(matter("polynomial"), ["method", "max_fill", "fill_gaps", "repair_order", "repair_points"]);
     }
 }

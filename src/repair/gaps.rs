@@ -59,6 +59,8 @@ mod tests {
         let gaps = [Gap { before: 4, at: vec![4.0] }, Gap { before: 7, at: vec![7.5, 8.0] }];
         let mut settings = Settings::defaults(PARAMS);
         assert_eq!(fill(&damage, &gaps, &settings), [Some(vec![8.0]), Some(vec![15.0, 16.0])]);
+        settings.set_text("repair", "max_fill", "2").unwrap();
+        assert_eq!(fill(&damage, &gaps, &settings), [Some(vec![8.0]), Some(vec![15.0, 16.0])]);
         settings.set_text("repair", "max_fill", "1").unwrap();
         assert_eq!(fill(&damage, &gaps, &settings), [None, Some(vec![15.0, 16.0])]);
         let damage = Damage { outliers: &[7], own: &nothing[..1], expected: &nothing[..1], ..damage };

@@ -45,6 +45,8 @@ pub fn cargo(tree: &Tree, arguments: &[String]) -> Result<Built, String> {
     let output = Command::new("cargo")
         .args(arguments)
         .arg("--message-format=json")
+        .args(["--config", "profile.test.package.wildpoint.debug=false"])
+        .args(["--config", "profile.dev.package.wildpoint.debug=false"])
         .current_dir(&tree.copy)
         .env("CARGO_TARGET_DIR", &tree.build)
         .env("CARGO_INCREMENTAL", "1")

@@ -1,8 +1,9 @@
-//! Mutation testing of the program in one build: every function that `cargo mutants` would change holds all its
-//! mutants, and an environment variable says which is in force. See `fuzz/README.md`.
+//! Mutation testing of the program in one build: the program holds every mutant that `cargo mutants` would build
+//! by itself, and an environment variable says which is in force. See `fuzz/README.md`.
 
 mod arguments;
 mod compile;
+mod group;
 mod judge;
 mod list;
 mod outcome;
@@ -43,13 +44,13 @@ impl Known {
     fn new(tree: &Tree) -> Result<Self, String> {
         let list = list::list(&tree.root)?;
         let (mut keys, mut rows) = (Vec::new(), Vec::new());
-        let all: Vec<(usize, &Mutant)> = list.iter().enumerate().collect();
-        for of_file in all.chunk_by(|(_, a), (_, b)| a.file == b.file) {
-            let Some((_, first)) = of_file.first() else { continue };
+        for of_file in list.chunk_by(|a, b| a.file == b.file) {
+            let Some(first) = of_file.first() else { continue };
             let path = tree.root.join(&first.file);
             let text = fs::read_to_string(&path).map_err(fault(&path))?;
-            keys.extend(outcome::keys(&text, of_file).map_err(|e| format!("{}: {e}", first.file))?.into_values());
-            rows.extend(of_file.iter().map(|(_, mutant)| survivors::row(&text, mutant)));
+            let mutants: Vec<&Mutant> = of_file.iter().collect();
+            keys.extend(outcome::keys(&text, &mutants).map_err(|e| format!("{}: {e}", first.file))?);
+            rows.extend(of_file.iter().map(|mutant| survivors::row(&text, mutant)));
         }
         Ok(Self { list, keys, rows, outcomes: outcome::read(&tree.outcomes) })
     }
@@ -98,9 +99,9 @@ fn judge_all(tree: &Tree, known: &mut Known, arguments: &Arguments) -> Result<()
 fn configured(tree: &Tree) -> Result<Vec<String>, String> {
     let path = tree.root.join(".cargo/mutants.toml");
     let text = fs::read_to_string(&path).map_err(fault(&path))?;
-    let line = text.lines().find(|line| line.starts_with("additional_cargo_test_args"));
-    let line = line.ok_or_else(|| format!("{}: no additional_cargo_test_args", path.display()))?;
-    let words: Vec<&str> = line.split('"').skip(1).step_by(2).collect();
+    let list = text.split_once("\nadditional_cargo_test_args").and_then(|(_, rest)| rest.split(']').next());
+    let list = list.ok_or_else(|| format!("{}: no additional_cargo_test_args", path.display()))?;
+    let words: Vec<&str> = list.split('"').skip(1).step_by(2).collect();
     Ok(words.windows(2).filter(|pair| pair[0] == "--test").map(|pair| pair[1].to_owned()).collect())
 }
 

@@ -8,9 +8,10 @@ use std::hash::{Hash, Hasher};
 use std::io::Write;
 use std::path::Path;
 
+use crate::group::{bytes, outermost};
 use crate::list::Mutant;
-use crate::rewrite::{bytes, grouped};
 use crate::tree::fault;
+use crate::unit::units;
 
 /// What came of a mutant.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -48,28 +49,25 @@ impl Outcome {
     }
 }
 
-/// What a mutant is known by as long as its unit does not change, wherever it moves: a sum over the file's name, the
-/// text of the unit, the place in it and the replacement. In the order of `mutants`, which are those of one file.
+/// What a mutant is known by as long as its function does not change, wherever that moves: a sum over the file's name,
+/// the text of the function, the place in it and the replacement. In the order of `mutants`, which are those of one
+/// file.
 ///
 /// # Errors
 /// Words that say where the text is no Rust.
-pub fn keys(text: &str, mutants: &[(usize, &Mutant)]) -> Result<BTreeMap<usize, u64>, String> {
-    let (groups, apart) = grouped(text, mutants)?;
-    let mut keys = BTreeMap::new();
-    let sum = |parts: (&str, &str, usize, &str)| {
+pub fn keys(text: &str, mutants: &[&Mutant]) -> Result<Vec<u64>, String> {
+    let units = units(text)?;
+    let key = |mutant: &&Mutant| {
+        let span = bytes(text, mutant);
+        // Outside any body: the line it is in.
+        let line = text.get(..span.start).unwrap_or("").rfind('\n').map_or(0, |at| at + 1);
+        let body = outermost(&units, &span).unwrap_or(line..span.end);
         let mut sum = DefaultHasher::new();
-        parts.hash(&mut sum);
+        let place = (span.start - body.start, span.len());
+        (&mutant.file, text.get(body).unwrap_or(""), place, &mutant.replacement).hash(&mut sum);
         sum.finish()
     };
-    for (index, mutant) in mutants {
-        let span = bytes(text, mutant);
-        let unit = groups.iter().find(|(_, members)| members.contains(index));
-        let body = unit.map_or(span.clone(), |(unit, _)| unit.body.clone());
-        let place = if apart.contains(index) { mutant.span.0.column } else { span.start - body.start };
-        let length = format!("{}:{}", span.len(), mutant.replacement);
-        keys.insert(*index, sum((&mutant.file, text.get(body).unwrap_or(""), place, &length)));
-    }
-    Ok(keys)
+    Ok(mutants.iter().map(key).collect())
 }
 
 /// The outcomes in the file at `path`, by their key; of two the later one. None when there is no file.
@@ -102,7 +100,7 @@ mod tests {
     fn key(text: &str, line: usize, column: usize) -> u64 {
         let span = (Place { line, column }, Place { line, column: column + 1 });
         let mutant = Mutant { file: "src/a.rs".into(), name: "m".into(), span, replacement: "-".into() };
-        keys(text, &[(0, &mutant)]).unwrap()[&0]
+        keys(text, &[&mutant]).unwrap()[0]
     }
 
     #[test]

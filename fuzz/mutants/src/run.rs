@@ -53,7 +53,7 @@ pub fn run(
     let output = File::create(&said).map_err(fault(&said))?;
     let mut command = Command::new("sh");
     command
-        .args(["-c", &format!("ulimit -t {seconds}; ulimit -v {MEMORY}; ulimit -c 0; exec \"$0\" \"$@\"")])
+        .args(["-c", &format!("ulimit -t {seconds}; ulimit -v {MEMORY}; ulimit -c 0; exec nice -n 10 \"$0\" \"$@\"")])
         .arg(&program.path)
         .args(["--exact", "--test-threads=1"])
         .args(tests)
