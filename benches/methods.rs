@@ -88,7 +88,7 @@ fn infill(group: &mut BenchmarkGroup<'_, WallTime>, record: &Record) {
         let mut settings = Settings::defaults(repair::PARAMS);
         settings.set_text("repair", "method", id).unwrap_or_else(|e| panic!("{id}: {e}"));
         group.bench_function(BenchmarkId::new(format!("infill, {id}"), n), |b| {
-            b.iter(|| black_box(repair::repair(&damage, &settings).len()));
+            b.iter(|| black_box(repair::repair(&damage, &settings, &Stop::never()).map(|values| values.len())));
         });
     }
 }

@@ -13,6 +13,7 @@ pub mod moments;
 pub mod moments_of_four;
 pub mod movement;
 pub mod order;
+pub mod pieces;
 pub mod polyfit;
 pub mod sliding;
 pub mod smoothing;

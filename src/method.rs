@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::math::pieces;
 use crate::param::{Param, Settings};
 use crate::stop::{Stop, Stopped};
 use crate::track::Series;
@@ -41,8 +42,8 @@ mod window;
 pub mod wright;
 
 pub use gated::Gated;
-pub use judged::{Directions, Judged};
-pub use segment::{Rate, Segment, zero_scale};
+pub use judged::{Directions, Judged, Part};
+pub use segment::{Rate, Segment, zero_scale, zero_scale_of_many};
 pub use verdict::{Direction, Restart, TIE, Verdict, Way, exceeds, reaches};
 
 /// Every method, in the order in which lists show them.
@@ -75,9 +76,11 @@ pub fn find(id: &str) -> Option<&'static dyn Method> {
 }
 
 /// Where a channel is cut under these settings.
-#[must_use]
-pub fn segments(series: &Series<'_>, settings: &Settings) -> Vec<Range<usize>> {
-    series.segments(settings.whole_or_off(shared::MAX_GAP.key))
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for it any more.
+pub fn segments(series: &Series<'_>, settings: &Settings, stop: &Stop) -> Result<Vec<Range<usize>>, Stopped> {
+    series.segments_unless(settings.whole_or_off(shared::MAX_GAP.key), &|| stop.check())
 }
 
 /// Judges a whole channel, segment by segment: one entry for each sample of `series`, nothing carried over a cut.
@@ -91,8 +94,8 @@ pub fn judge_channel(
     settings: &Settings,
     stop: &Stop,
 ) -> Result<Judged, Stopped> {
-    let ranges = segments(series, settings);
-    let scales = noise::scales(series, &ranges, settings);
+    let ranges = segments(series, settings, stop)?;
+    let scales = noise::scales(series, &ranges, settings, stop)?;
     judge_segments(method, series, (&ranges, &scales), rate, settings, stop)
 }
 
@@ -110,13 +113,13 @@ pub fn judge_segments(
 ) -> Result<Judged, Stopped> {
     let judge = |(range, scales): (&Range<usize>, &noise::Scales)| {
         stop.check()?;
-        method.judge(&Segment::of(series, range, *scales, rate), settings, stop).map(Judged::bounded)
+        method.judge(&Segment::of(series, range, *scales, rate), settings, stop)?.bounded(stop)
     };
     // Segments are judged in any order and put together in theirs: the number of threads changes nothing.
     let parts: Vec<Judged> = ranges.par_iter().zip(scales).map(judge).collect::<Result<_, _>>()?;
     let mut parts = parts.into_iter();
     let mut whole = parts.next().unwrap_or_default();
-    parts.for_each(|part| whole.append(part));
+    parts.try_for_each(|part| whole.append(part, stop))?;
     Ok(whole)
 }
 
@@ -161,16 +164,26 @@ pub trait Method: Sync {
 
     /// What the method's document puts in place of the outliers (`own` repair): one value for each sample of
     /// `outliers` (positions in the segment, ascending, after the analyst's decisions), NaN where it puts nothing.
-    fn own_repair(&self, segment: &Segment<'_>, settings: &Settings, judged: &Judged, outliers: &[usize]) -> Vec<f64> {
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more.
+    fn own_repair(
+        &self,
+        segment: &Segment<'_>,
+        settings: &Settings,
+        judged: &Part<'_>,
+        outliers: &[usize],
+        stop: &Stop,
+    ) -> Result<Vec<f64>, Stopped> {
         let _ = (segment, settings);
-        let own = |&i: &usize| {
-            let put_in = judged.own.get(i).copied().filter(|v| v.is_finite());
-            put_in.or_else(|| judged.expected.get(i).copied()).unwrap_or(f64::NAN)
+        let own = |n: usize| {
+            let put_in = judged.own.get(outliers[n]).copied().filter(|v| v.is_finite());
+            put_in.or_else(|| judged.expected.get(outliers[n]).copied()).unwrap_or(f64::NAN)
         };
-        match self.about().own {
-            Own::Remove => vec![f64::NAN; outliers.len()],
-            Own::Expected => outliers.iter().map(own).collect(),
-        }
+        pieces::collect(outliers.len(), &|| stop.check(), |n| match self.about().own {
+            Own::Remove => f64::NAN,
+            Own::Expected => own(n),
+        })
     }
 
     /// Facts that help to choose these settings, one line each.

@@ -7,8 +7,10 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, nearest};
+use crate::math::pieces;
 use crate::param::{Kind, Param, Settings, Value, always};
+use crate::stop::{Stop, Stopped};
 
 mod gaps;
 mod linear;
@@ -164,7 +166,7 @@ pub static PARAMS: &[Param] = &[METHOD, MAX_FILL, FILL_GAPS, ANCHORS, REPAIR_ORD
 ///
 /// # Errors
 /// [`Error::Usage`] with the repairs there are and the nearest.
-pub fn find(id: &str) -> Result<&'static Repair> {
+pub fn find(id: &str) -> Result<&'static Repair, Error> {
     REPAIRS.iter().find(|r| r.id == id).ok_or_else(|| {
         let hint = nearest(id, IDS.iter().copied()).map_or(String::new(), |k| format!("did you mean {k}? "));
         Error::usage(format!("{id}: there is no such repair"), format!("{hint}repairs: {}", IDS.join(", ")))
@@ -195,12 +197,15 @@ pub struct Damage<'a> {
 
 /// A value for each outlier; NaN where it is removed. A run is repaired whole or removed whole: runs of more than
 /// `max_fill` samples, and those for which the repair has no value at one of their samples, are removed.
-#[must_use]
-pub fn repair(damage: &Damage<'_>, settings: &Settings) -> Vec<f64> {
-    /// Runs that one piece of parallel work has at least.
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for the result any more.
+pub fn repair(damage: &Damage<'_>, settings: &Settings, stop: &Stop) -> Result<Vec<f64>, Stopped> {
+    /// Runs in one piece of parallel work: each costs some microseconds.
     const PIECE: usize = 64;
     let limit = fill_limit(settings);
     let short = || runs(damage.outliers).filter(|run| run.len() <= limit);
+    stop.check()?;
     let mut values = vec![f64::NAN; damage.outliers.len()];
     let mut put_in = |run: Range<usize>, found: &[f64]| {
         if found.iter().all(|v| v.is_finite()) {
@@ -214,23 +219,27 @@ pub fn repair(damage: &Damage<'_>, settings: &Settings) -> Vec<f64> {
         Way::Interpolate(interpolate) => {
             let short: Vec<Range<usize>> = short().collect();
             if short.is_empty() {
-                return values;
+                return Ok(values);
             }
-            let accepted = Accepted::of(damage);
-            let found = short.par_iter().with_min_len(PIECE).map(|run| {
+            let accepted = Accepted::of(damage, stop)?;
+            let find = |run: &Range<usize>| {
                 let at: Vec<f64> = damage.outliers[run.clone()].iter().map(|&i| damage.t[i]).collect();
                 // Before the run lie its first position less the outliers that precede it.
                 accepted.around(damage.outliers[run.start] - run.start).and_then(|a| interpolate(&a, &at, settings))
+            };
+            let found = short.par_chunks(PIECE).map(|runs| {
+                stop.check()?;
+                Ok(runs.iter().map(find).collect())
             });
-            let found: Vec<Option<Vec<f64>>> = found.collect();
-            for (run, found) in short.into_iter().zip(found) {
+            let found: Vec<Vec<Option<Vec<f64>>>> = found.collect::<Result<_, Stopped>>()?;
+            for (run, found) in short.into_iter().zip(found.into_iter().flatten()) {
                 if let Some(found) = found {
                     put_in(run, &found);
                 }
             }
         }
     }
-    values
+    Ok(values)
 }
 
 /// `max_fill` as a limit.
@@ -265,16 +274,23 @@ struct Accepted {
 }
 
 impl Accepted {
-    fn of(damage: &Damage<'_>) -> Self {
-        let mut outliers = damage.outliers.iter().copied().peekable();
-        let (mut t, mut y) = (Vec::with_capacity(damage.t.len()), Vec::with_capacity(damage.t.len()));
-        for i in 0..damage.t.len() {
-            if outliers.next_if_eq(&i).is_none() {
-                t.push(damage.t[i]);
-                y.push(damage.y[i]);
+    fn of(damage: &Damage<'_>, stop: &Stop) -> Result<Self, Stopped> {
+        let n = damage.t.len();
+        let (mut t, mut y) = (Vec::with_capacity(n), Vec::with_capacity(n));
+        let mut outliers = damage.outliers;
+        for begin in (0..n).step_by(pieces::PIECE) {
+            stop.check()?;
+            let end = n.min(begin + pieces::PIECE);
+            let (inside, rest) = outliers.split_at(outliers.partition_point(|&i| i < end));
+            outliers = rest;
+            // The stretches between them.
+            let begins = std::iter::once(begin).chain(inside.iter().map(|i| i + 1));
+            for stretch in begins.zip(inside.iter().copied().chain(std::iter::once(end))).map(|(a, b)| a..b) {
+                t.extend_from_slice(&damage.t[stretch.clone()]);
+                y.extend_from_slice(&damage.y[stretch]);
             }
         }
-        Self { t, y }
+        Ok(Self { t, y })
     }
 
     /// The two sides of a hole that has `before` accepted samples before it; none when a side is empty.
@@ -305,7 +321,8 @@ mod tests {
         let mut y: Vec<f64> = t.iter().map(|&t| cubic(t)).collect();
         outliers.iter().for_each(|&i| y[i] += 100.0);
         let (own, expected) = (vec![f64::NAN; outliers.len()], vec![7.0; outliers.len()]);
-        repair(&Damage { t: &t, y: &y, outliers, own: &own, expected: &expected }, &settings(pairs))
+        repair(&Damage { t: &t, y: &y, outliers, own: &own, expected: &expected }, &settings(pairs), &Stop::never())
+            .unwrap()
     }
 
     #[test]

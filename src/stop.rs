@@ -26,8 +26,18 @@ enum Wanted {
     Always,
     /// As long as the number is this one.
     While(Arc<AtomicU64>, u64),
-    /// For so many more looks.
-    Looks(Arc<AtomicU64>),
+    /// Until this says otherwise.
+    Asked(Question),
+}
+
+/// Asked at each look: true when the work is no longer wanted.
+#[derive(Clone)]
+struct Question(Arc<dyn Fn() -> bool + Send + Sync>);
+
+impl std::fmt::Debug for Question {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Question")
+    }
 }
 
 impl Stop {
@@ -50,7 +60,15 @@ impl Stop {
     /// test sees how often a computation looks.
     #[must_use]
     pub fn after_looks(left: Arc<AtomicU64>) -> Self {
-        Self(Wanted::Looks(left))
+        Self::asking(move || {
+            left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1)).is_err()
+        })
+    }
+
+    /// Work that is no longer wanted as soon as `gone` says so, which is asked at each look.
+    #[must_use]
+    pub fn asking(gone: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+        Self(Wanted::Asked(Question(Arc::new(gone))))
     }
 
     /// True when the work is no longer wanted.
@@ -59,9 +77,7 @@ impl Stop {
         match &self.0 {
             Wanted::Always => false,
             Wanted::While(newest, mine) => newest.load(Ordering::Relaxed) != *mine,
-            Wanted::Looks(left) => {
-                left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1)).is_err()
-            }
+            Wanted::Asked(Question(gone)) => gone(),
         }
     }
 

@@ -68,7 +68,9 @@ impl Record {
 
     fn repaired(&self, id: &str, changes: &[(&str, &str)], outliers: &[usize]) -> Vec<f64> {
         let judged = self.judged(id, changes);
-        method(id).own_repair(&self.segment(), &settings(id, changes), &judged, outliers)
+        let part = judged.part(0..self.y.len());
+        let stop = Stop::never();
+        method(id).own_repair(&self.segment(), &settings(id, changes), &part, outliers, &stop).expect("nobody stops it")
     }
 }
 
@@ -312,7 +314,7 @@ fn one_channel_jointly_is_the_single_test_with_the_gate_of_chi_square() {
     let joint = settings("kalman", &[("test", "joint")]);
     let several = together(&[&series], &joint);
     let cuts = series.segments(Some(5));
-    let scales = noise::scales(&series, &cuts, &joint);
+    let scales = noise::scales(&series, &cuts, &joint, &Stop::never()).expect("nobody stops it");
     let segment = Segment::of(&series, &cuts[0], scales[0], None);
     let single = method("kalman").judge(&segment, &joint, &Stop::never()).expect("nobody stops it");
     assert_eq!(several[0].verdict, single.verdict);

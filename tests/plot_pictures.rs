@@ -47,7 +47,7 @@ proptest! {
         (width, height) in (0_u16..130, 0_u16..30), glyphs in glyphs(), log in prop::bool::ANY, threshold in 0.1..9.0_f64,
     ) {
         let flagged: Vec<bool> = samples.iter().map(|s| s.1).collect();
-        let histogram = &Histogram::new(10.0, |i| Some(samples[i].0), &flagged);
+        let histogram = &Histogram::new(10.0, |i| Some(samples[i].0), &flagged, &Stop::never()).expect("nobody stops it");
         let (mut buffer, area) = canvas(width, height);
         let theme = &theme();
         HistogramPlot { histogram, threshold, log, cursor: Some(1.0), theme, glyphs }.render(area, &mut buffer);

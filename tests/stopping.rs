@@ -21,8 +21,8 @@ const MOST: u64 = 16_384;
 fn judge(record: &Record, method: &dyn Method, stop: &Stop) -> Result<(), Stopped> {
     let settings = Settings::defaults(method.about().params);
     let series = Series::new(&record.t, &record.y);
-    let ranges = segments(&series, &settings);
-    let scales = noise::scales(&series, &ranges, &settings);
+    let ranges = segments(&series, &settings, stop)?;
+    let scales = noise::scales(&series, &ranges, &settings, stop)?;
     let rate = Rate { t: &record.t, y: &record.rate };
     judge_segments(method, &series, (&ranges, &scales), Some(rate), &settings, stop).map(|_| ())
 }
@@ -56,8 +56,8 @@ fn how_long_it_takes_to_stop() {
         let begun = Instant::now();
         let settings = Settings::defaults(method.about().params);
         let series = Series::new(&record.t, &record.y);
-        let ranges = segments(&series, &settings);
-        let scales = noise::scales(&series, &ranges, &settings);
+        let Ok(ranges) = segments(&series, &settings, &Stop::never()) else { continue };
+        let Ok(scales) = noise::scales(&series, &ranges, &settings, &Stop::never()) else { continue };
         let rate = Rate { t: &record.t, y: &record.rate };
         let before = begun.elapsed();
         let judge = |stop: &Stop| judge_segments(*method, &series, (&ranges, &scales), Some(rate), &settings, stop);

@@ -73,13 +73,16 @@ const MAX_FILL: usize = 20;
 /// The values after the own repair of the method; NaN where a sample is removed.
 fn cleaned(method: &dyn Method, series: &Series<'_>, rate: Option<Rate<'_>>, settings: &Settings) -> Vec<f64> {
     let mut clean = series.y.to_vec();
-    let ranges = segments(series, settings);
-    let scales = noise::scales(series, &ranges, settings);
+    let stop = Stop::never();
+    let ranges = segments(series, settings, &stop).expect("nobody stops it");
+    let scales = noise::scales(series, &ranges, settings, &stop).expect("nobody stops it");
     for (range, scales) in ranges.iter().zip(scales) {
         let segment = Segment::of(series, range, scales, rate);
-        let part = method.judge(&segment, settings, &Stop::never()).expect("nobody stops it");
+        let part = method.judge(&segment, settings, &stop).expect("nobody stops it");
         let outliers: Vec<usize> = (0..segment.len()).filter(|&i| part.verdict[i] == Verdict::Outlier).collect();
-        let mut own = method.own_repair(&segment, settings, &part, &outliers).into_iter();
+        let whole = part.part(0..segment.len());
+        let own = method.own_repair(&segment, settings, &whole, &outliers, &stop).expect("nobody stops it");
+        let mut own = own.into_iter();
         for run in outliers.chunk_by(|a, b| a + 1 == *b) {
             for (at, value) in run.iter().zip(&mut own) {
                 clean[range.start + at] = if run.len() > MAX_FILL { f64::NAN } else { value };

@@ -38,7 +38,7 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
     let judged: Vec<(Row, Vec<Verdict>)> = judged.into_iter().collect::<Result<_>>()?;
     let (rows, verdicts): (Vec<Row>, Vec<Vec<Verdict>>) = judged.into_iter().unzip();
     let mut ballot = Ballot::new(samples.series(channel, &track.time).len());
-    rows.iter().zip(&verdicts).for_each(|(row, verdict)| ballot.add(row.method, verdict));
+    rows.iter().zip(&verdicts).try_for_each(|(row, verdict)| ballot.add(row.method, verdict, &Stop::never()))?;
     let consensus = match args.votes {
         Some(votes) => Some(written(args, votes, &track, index, &samples, &ballot)?),
         None => None,

@@ -103,9 +103,10 @@ fn consensus(
 ) -> Result<Outcome> {
     let channel = &track.channels[index];
     let series = samples.series(channel, &track.time);
-    let segments = segments(&series, &setup.settings);
+    let stop = Stop::never();
+    let segments = segments(&series, &setup.settings, &stop)?;
     let judged = Judged { verdict: ballot.verdicts(votes), ..Judged::unchecked(series.len()) };
     let scales = vec![Scales::default(); segments.len()];
     let detection = Detection::new(setup.clone(), segments, scales, judged);
-    Ok(settle(track, channel, samples, Arc::new(detection), &Decisions::default(), &Stop::never())?)
+    Ok(settle(track, channel, samples, Arc::new(detection), &Decisions::default(), &stop)?)
 }

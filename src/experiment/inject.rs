@@ -3,6 +3,7 @@
 use super::Random;
 use crate::error::{Error, Result};
 use crate::method::noise;
+use crate::stop::Stop;
 use crate::track::Series;
 
 mod text;
@@ -125,8 +126,9 @@ fn scale(series: &Series<'_>, plan: &Plan) -> Result<f64> {
     }
     let whole = 0..series.len();
     let whole = std::slice::from_ref(&whole);
-    let measured = noise::by_difference(series, whole).into_iter().chain(noise::auto_floor(series, whole));
-    let sigma = measured.fold(0.0, f64::max);
+    let stop = Stop::never();
+    let measured = [noise::by_difference(series, whole, &stop)?, noise::auto_floor(series, whole, &stop)?];
+    let sigma = measured.concat().into_iter().fold(0.0, f64::max);
     if sigma > 0.0 {
         return Ok(sigma);
     }

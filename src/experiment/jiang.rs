@@ -7,6 +7,7 @@ use super::{Experiment, Published, Record};
 use crate::error::Result;
 use crate::method::noise;
 use crate::session::Preset;
+use crate::stop::Stop;
 
 mod data;
 
@@ -90,7 +91,8 @@ fn trial(record: &Record) -> Result<Figures> {
             let rest: Vec<usize> = (0..series.len()).filter(kept).collect();
             let t: Vec<f64> = rest.iter().map(|&i| series.t[i]).collect();
             let y: Vec<f64> = rest.iter().map(|&i| series.y[i]).collect();
-            figures.push((SPLINE, vec![spline_residual(&series), spline_residual(&crate::track::Series::new(&t, &y))]));
+            figures
+                .push((SPLINE, vec![spline_residual(&series)?, spline_residual(&crate::track::Series::new(&t, &y))?]));
         }
     }
     Ok(figures)
@@ -98,11 +100,11 @@ fn trial(record: &Record) -> Result<Figures> {
 
 /// Eq. (2) over the segments of a record: the root of the mean square, weighted by their samples.
 #[expect(clippy::cast_precision_loss, reason = "counts of some thousand samples")]
-fn spline_residual(series: &crate::track::Series<'_>) -> f64 {
+fn spline_residual(series: &crate::track::Series<'_>) -> Result<f64> {
     let segments = series.segments(Some(5));
-    let scales = noise::by_spline(series, &segments);
+    let scales = noise::by_spline(series, &segments, &Stop::never())?;
     let sum: f64 = segments.iter().zip(scales).map(|(s, scale)| s.len() as f64 * scale * scale).sum();
-    (sum / series.len() as f64).sqrt()
+    Ok((sum / series.len() as f64).sqrt())
 }
 
 const BEST: &str = "variable, both";

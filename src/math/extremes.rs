@@ -1,5 +1,8 @@
 //! The most deviant of many values, one after the other, without sorting those in the middle.
 
+use super::order::sort_many;
+use super::pieces::{self, Check};
+
 /// Values taken from both ends inwards: at each turn the one farthest from a centre that may have moved.
 #[derive(Debug)]
 pub struct Extremes<'a> {
@@ -22,16 +25,24 @@ impl<'a> Extremes<'a> {
     /// Takes out the value that is farthest from `center` (among equally far ones the earliest) and says at which
     /// index it stands; none when all have been taken. `scale` is asked
     /// now and then for a hint at how widely those left are spread.
-    pub fn next(&mut self, center: f64, scale: impl Fn() -> f64) -> Option<usize> {
+    ///
+    /// # Errors
+    /// What `check` gives, which is asked before each piece of longer work.
+    pub fn next<E: Send>(
+        &mut self,
+        center: f64,
+        scale: impl Fn() -> f64,
+        check: &impl Check<E>,
+    ) -> Result<Option<usize>, E> {
         while (self.lower.is_empty() || self.upper.is_empty()) && self.low < self.high {
-            self.reach_inwards(center, scale());
+            self.reach_inwards(center, scale(), check)?;
         }
         if self.lower.is_empty() != self.upper.is_empty() {
-            self.share();
+            self.share(check)?;
         }
         let (lower, upper) = (self.lower.last(), self.upper.last());
         let take_lower = match (lower, upper) {
-            (None, None) => return None,
+            (None, None) => return Ok(None),
             (Some(_), None) => true,
             (None, Some(_)) => false,
             (Some(&(a, i)), Some(&(b, j))) => {
@@ -39,12 +50,12 @@ impl<'a> Extremes<'a> {
                 below > above || (below >= above && i < j)
             }
         };
-        if take_lower { self.lower.pop() } else { self.upper.pop() }.map(|(_, i)| i)
+        Ok(if take_lower { self.lower.pop() } else { self.upper.pop() }.map(|(_, i)| i))
     }
 
     /// When all that are left stand at one end, gives the half that lies at the other side to the other end: the
     /// centre may have moved past them all.
-    fn share(&mut self) {
+    fn share<E: Send>(&mut self, check: &impl Check<E>) -> Result<(), E> {
         let (mut lower, mut upper) = (std::mem::take(&mut self.lower), std::mem::take(&mut self.upper));
         let (from, to) = if upper.is_empty() { (&mut lower, &mut upper) } else { (&mut upper, &mut lower) };
         // Equal values stay together, so that the earliest of them comes first whichever end they are at.
@@ -54,12 +65,13 @@ impl<'a> Extremes<'a> {
         if inner < from.len() {
             to.extend(from.drain(..inner));
         }
-        sort(&mut lower, &mut upper);
+        sort(&mut lower, &mut upper, check)?;
         (self.lower, self.upper) = (lower, upper);
+        Ok(())
     }
 
     /// Hands the outermost of the waiting values to the ends, and in the end all of them.
-    fn reach_inwards(&mut self, center: f64, scale: f64) {
+    fn reach_inwards<E: Send>(&mut self, center: f64, scale: f64, check: &impl Check<E>) -> Result<(), E> {
         let width = self.high - self.low;
         let (mut low, mut high) = (center - 2.5 * scale, center + 2.5 * scale);
         // In small steps, so that no single sort takes long.
@@ -73,36 +85,51 @@ impl<'a> Extremes<'a> {
             (low, high) = (middle, middle);
         }
         let waits = |v: f64| v > self.low && v < self.high;
-        let (mut lower, mut upper) = (Vec::new(), Vec::new());
-        for (i, &v) in self.values.iter().enumerate() {
-            if v <= low && waits(v) {
-                lower.push((v, i));
-            } else if v >= high && waits(v) {
-                upper.push((v, i));
+        let ends = pieces::map(self.values.len(), check, |piece| {
+            let (mut lower, mut upper) = (Vec::new(), Vec::new());
+            for (i, &v) in piece.clone().zip(&self.values[piece]) {
+                if v <= low && waits(v) {
+                    lower.push((v, i));
+                } else if v >= high && waits(v) {
+                    upper.push((v, i));
+                }
             }
+            (lower, upper)
+        })?;
+        let (mut lower, mut upper) = (Vec::new(), Vec::new());
+        for (low, high) in ends {
+            lower.extend(low);
+            upper.extend(high);
         }
-        sort(&mut lower, &mut upper);
+        sort(&mut lower, &mut upper, check)?;
         // The new ones lie further in than those still there.
         lower.append(&mut self.lower);
         upper.append(&mut self.upper);
         (self.lower, self.upper) = (lower, upper);
         (self.low, self.high) = if inside { (low, high) } else { (f64::INFINITY, f64::NEG_INFINITY) };
+        Ok(())
     }
 }
 
 /// Puts the outermost last and, among equals, the earliest.
-fn sort(lower: &mut [(f64, usize)], upper: &mut [(f64, usize)]) {
-    rayon::join(
-        || lower.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1))),
-        || upper.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))),
+fn sort<E: Send>(lower: &mut Vec<(f64, usize)>, upper: &mut Vec<(f64, usize)>, check: &impl Check<E>) -> Result<(), E> {
+    let (lower, upper) = rayon::join(
+        || sort_many(lower, |a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)), check),
+        || sort_many(upper, |a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)), check),
     );
+    lower.and(upper)
 }
 
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
+    use super::super::pieces::{certain, to_the_end};
     use super::*;
+
+    fn next(extremes: &mut Extremes<'_>, center: f64, scale: f64) -> Option<usize> {
+        certain(extremes.next(center, || scale, &to_the_end))
+    }
 
     proptest! {
         #[test]
@@ -120,9 +147,9 @@ mod tests {
                         far = at;
                     }
                 }
-                prop_assert_eq!(extremes.next(mean, || scale), Some(left.remove(far)));
+                prop_assert_eq!(next(&mut extremes, mean, scale), Some(left.remove(far)));
             }
-            prop_assert_eq!(extremes.next(0.0, || 1.0), None);
+            prop_assert_eq!(next(&mut extremes, 0.0, 1.0), None);
         }
     }
 
@@ -130,7 +157,7 @@ mod tests {
     fn equal_values_come_in_their_order() {
         let values = [2.0, -2.0, 2.0, 0.0, -2.0, 0.0];
         let mut extremes = Extremes::new(&values);
-        let order: Vec<usize> = std::iter::from_fn(|| extremes.next(0.0, || 1.0)).collect();
+        let order: Vec<usize> = std::iter::from_fn(|| next(&mut extremes, 0.0, 1.0)).collect();
         assert_eq!(order, [0, 1, 2, 4, 3, 5]);
     }
 }

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::pieces::Check;
 use super::sliding::Summary;
 
 /// Values in one piece of parallel work.
@@ -54,15 +55,18 @@ impl Moments {
     }
 
     /// The moments of many values: in parallel, in pieces that do not depend on the number of threads.
-    #[must_use]
-    pub fn of_long(values: &[f64]) -> Self {
+    ///
+    /// # Errors
+    /// What `check` gives, which is asked before each piece.
+    pub fn of_long<E: Send>(values: &[f64], check: &impl Check<E>) -> Result<Self, E> {
         let piece = |v: &[f64]| {
             let (count, origin) = (v.len() as f64, v[0]);
             let mean = origin + lanes(v, |x| x - origin) / count;
             Self { count, mean, squares: lanes(v, |x| (x - mean) * (x - mean)) }
         };
-        let pieces: Vec<Self> = values.par_chunks(CHUNK).map(piece).collect();
-        pieces.iter().fold(Self::default(), |sum, piece| sum.merge(piece))
+        let pieces = values.par_chunks(CHUNK).map(|v| check().map(|()| piece(v)));
+        let pieces = pieces.collect::<Result<Vec<Self>, E>>()?;
+        Ok(pieces.iter().fold(Self::default(), |sum, piece| sum.merge(piece)))
     }
 
     /// The sample standard deviation: divisor n - 1, NaN for fewer than two values.
@@ -112,6 +116,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::math::pieces::{certain, to_the_end};
     use crate::math::sliding::Sliding;
 
     /// Straight from the definition, about an exact centre.
@@ -145,7 +150,7 @@ mod tests {
         for n in [1usize, 7, 8, 9, 30_001] {
             let x: Vec<f64> = (0..n).map(|i| 1e9 + (i * 7919 % 1013) as f64 * 1e-3).collect();
             let (mean, squares) = plain(&x);
-            let got = Moments::of_long(&x);
+            let got = certain(Moments::of_long(&x, &to_the_end));
             assert!((got.mean - mean).abs() < 1e-6 && (got.squares - squares).abs() <= 1e-8 * squares);
         }
     }

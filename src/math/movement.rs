@@ -1,20 +1,24 @@
 //! How large the values of a slice are, and how little they move.
 
-use rayon::prelude::*;
+use std::ops::Range;
 
-/// Values in one piece of parallel work.
-const CHUNK: usize = 16_384;
+use super::pieces::{self, Check};
 
 /// Values handled at a time, so that the compiler may use vector instructions.
 const LANES: usize = 8;
 
 /// The largest absolute value; 0 where there is none.
-#[must_use]
-pub fn largest(values: &[f64]) -> f64 {
-    values.par_chunks(CHUNK).map(largest_of).reduce(|| 0.0, f64::max)
+///
+/// # Errors
+/// What `check` gives, which is asked before each piece of work.
+pub fn largest_of_many<E: Send>(values: &[f64], check: &impl Check<E>) -> Result<f64, E> {
+    let each = pieces::map(values.len(), check, |piece| largest(&values[piece]))?;
+    Ok(each.into_iter().fold(0.0, f64::max))
 }
 
-fn largest_of(values: &[f64]) -> f64 {
+/// The largest absolute value; 0 where there is none.
+#[must_use]
+pub fn largest(values: &[f64]) -> f64 {
     let mut lanes = [0.0_f64; LANES];
     let (eights, rest) = values.as_chunks::<LANES>();
     for eight in eights {
@@ -27,14 +31,13 @@ fn largest_of(values: &[f64]) -> f64 {
 
 /// The smallest step `|y[i + 1] - y[i]|` or third difference `|(y[i] - y[i + 3]) - 3 (y[i + 1] - y[i + 2])|` of more
 /// than `zero`; infinite where there is none.
-#[must_use]
-pub fn smallest_movement(y: &[f64], zero: f64) -> f64 {
-    let piece = |chunk: usize| {
-        let begin = chunk * CHUNK;
-        // Three samples more: what begins in this piece ends there.
-        smallest_of(&y[begin..(begin + CHUNK + 3).min(y.len())], zero)
-    };
-    (0..y.len().div_ceil(CHUNK)).into_par_iter().map(piece).reduce(|| f64::INFINITY, f64::min)
+///
+/// # Errors
+/// What `check` gives, which is asked before each piece of work.
+pub fn smallest_movement<E: Send>(y: &[f64], zero: f64, check: &impl Check<E>) -> Result<f64, E> {
+    // Three samples more: what begins in this piece ends there.
+    let of = |piece: Range<usize>| smallest_of(&y[piece.start..(piece.end + 3).min(y.len())], zero);
+    Ok(pieces::map(y.len(), check, of)?.into_iter().fold(f64::INFINITY, f64::min))
 }
 
 fn smallest_of(y: &[f64], zero: f64) -> f64 {
@@ -57,6 +60,7 @@ fn smallest_of(y: &[f64], zero: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::pieces::{PIECE as CHUNK, certain, to_the_end};
     use super::*;
 
     #[test]
@@ -64,12 +68,13 @@ mod tests {
         for n in [0usize, 1, 2, 3, 4, 11, 12, 40, 40_000] {
             let y: Vec<f64> = (0..n).map(|i| ((i * 7919) % 10_007) as f64 * 0.25 - 700.0).collect();
             let size = y.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-            assert_eq!(largest(&y).to_bits(), size.to_bits());
+            assert_eq!(certain(largest_of_many(&y, &to_the_end)).to_bits(), size.to_bits());
             for zero in [0.0, 0.25, 300.0] {
                 let steps = y.windows(2).map(|w| (w[1] - w[0]).abs());
                 let thirds = y.windows(4).map(|w| ((w[0] - w[3]) - 3.0 * (w[1] - w[2])).abs());
                 let least = steps.chain(thirds).filter(|d| *d > zero).fold(f64::INFINITY, f64::min);
-                assert_eq!(smallest_movement(&y, zero).to_bits(), least.to_bits(), "{n} {zero}");
+                let got = certain(smallest_movement(&y, zero, &to_the_end));
+                assert_eq!(got.to_bits(), least.to_bits(), "{n} {zero}");
             }
         }
     }
@@ -79,9 +84,9 @@ mod tests {
         for at in CHUNK - 4..CHUNK + 4 {
             let mut y: Vec<f64> = (0..2 * CHUNK).map(|i| 1e3 * ((i * 7919) % 10_007) as f64).collect();
             y[at] = y[at - 1] + 0.5;
-            assert_eq!(smallest_movement(&y, 0.0).to_bits(), 0.5_f64.to_bits());
+            assert_eq!(certain(smallest_movement(&y, 0.0, &to_the_end)).to_bits(), 0.5_f64.to_bits());
             y[at] = -1e9;
-            assert_eq!(largest(&y).to_bits(), 1e9_f64.to_bits());
+            assert_eq!(certain(largest_of_many(&y, &to_the_end)).to_bits(), 1e9_f64.to_bits());
         }
     }
 }

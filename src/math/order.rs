@@ -3,7 +3,12 @@
 
 use std::ops::RangeInclusive;
 
-use rayon::prelude::*;
+use super::pieces::{self, Check};
+
+mod rank;
+mod sort;
+
+pub use sort::sort_many;
 
 /// Makes the median absolute deviation of normal noise its standard deviation: 1 / `PhiInv(3/4)`, to the five
 /// digits in which the literature uses it.
@@ -26,50 +31,31 @@ pub fn median(values: &[f64]) -> f64 {
 }
 
 /// The median of `value(0 .. n)`, of many values: in parallel and without a copy of them, the same on any number of
-/// threads.
-#[must_use]
-pub fn median_of_many(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
-    median_of_smallest(n, n, value)
+/// threads. A negative zero counts as zero.
+///
+/// # Errors
+/// What `check` gives, which is asked before each piece of work.
+pub fn median_of_many<E: Send>(n: usize, value: impl Fn(usize) -> f64 + Sync, check: &impl Check<E>) -> Result<f64, E> {
+    median_of_smallest(n, n, value, check)
 }
 
 /// The median of the `count <= n` smallest of `value(0 .. n)`, as [`median_of_many`] finds it.
-#[must_use]
-pub fn median_of_smallest(n: usize, count: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
-    const SAMPLE: usize = 4096;
-    const CHUNK: usize = 16_384;
+///
+/// # Errors
+/// What `check` gives.
+pub fn median_of_smallest<E: Send>(
+    n: usize,
+    count: usize,
+    value: impl Fn(usize) -> f64 + Sync,
+    check: &impl Check<E>,
+) -> Result<f64, E> {
     if count == 0 {
-        return f64::NAN;
+        return Ok(f64::NAN);
     }
-    if n < 8 * SAMPLE {
-        return middle_of_smallest(&mut (0..n).map(value).collect::<Vec<f64>>(), count / 2, !count.is_multiple_of(2));
-    }
-    // A sample of the values tells two between which the middle ones lie, almost surely: only those are collected.
-    let mut sample: Vec<f64> = (0..SAMPLE).map(|i| value(i * (n / SAMPLE))).collect();
-    sample.sort_unstable_by(f64::total_cmp);
-    let likely = count / 2 / (n / SAMPLE).max(1);
-    let (low, high) = (sample[likely.saturating_sub(SAMPLE / 25)], sample[(likely + SAMPLE / 25).min(SAMPLE - 1)]);
-    let pieces: Vec<(usize, Vec<f64>)> = (0..n.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|chunk| {
-            // Every value is written down, and the next over it where it does not count: no branch to guess.
-            let (mut below, mut kept, mut between) = (0, 0, vec![0.0; CHUNK]);
-            for v in (chunk * CHUNK..n.min((chunk + 1) * CHUNK)).map(&value) {
-                below += usize::from(v < low);
-                between[kept] = v;
-                kept += usize::from(v >= low && v <= high);
-            }
-            between.truncate(kept);
-            (below, between)
-        })
-        .collect();
-    let below: usize = pieces.iter().map(|p| p.0).sum();
-    let mut between: Vec<f64> = pieces.into_iter().flat_map(|p| p.1).collect();
-    // Both middle values of an even count must be among them.
-    let (middle, odd) = (count / 2, !count.is_multiple_of(2));
-    if below + 1 > middle || below + between.len() <= middle {
-        return middle_of_smallest(&mut (0..n).map(value).collect::<Vec<f64>>(), middle, odd);
-    }
-    middle_of_smallest(&mut between, middle - below, odd)
+    let upper = count / 2;
+    let lower = if count.is_multiple_of(2) { upper - 1 } else { upper };
+    let [lower, upper] = rank::of_many(n, [lower, upper], value, check)?;
+    Ok(if count.is_multiple_of(2) { mean_of_two(lower, upper) } else { upper })
 }
 
 /// The value of rank `middle` (from 0), or its mean with the one of the rank before.
@@ -78,40 +64,58 @@ fn middle_of_smallest(values: &mut [f64], middle: usize, odd: bool) -> f64 {
     if odd { upper } else { mean_of_two(below.iter().copied().fold(f64::NEG_INFINITY, f64::max), upper) }
 }
 
-/// Those of many values that lie between two limits, in order: for medians that are asked for again and again of ever
-/// other parts.
+/// Those of many values that lie between two limits: for medians that are asked for again and again of ever other
+/// parts.
 #[derive(Debug, Clone)]
 pub struct Middle {
     below: usize,
-    sorted: Vec<f64>,
+    /// Those within the limits but not at the upper one.
+    within: Vec<f64>,
+    /// How many are the upper limit.
+    at_end: usize,
+    end: f64,
 }
 
 impl Middle {
     /// The values within `limits`; none of `values` may be NaN.
-    #[must_use]
-    pub fn of(values: &[f64], limits: RangeInclusive<f64>) -> Self {
-        const CHUNK: usize = 16_384;
-        let piece = |values: &[f64]| {
-            let below = values.iter().filter(|v| **v < *limits.start()).count();
-            (below, values.iter().copied().filter(|v| limits.contains(v)).collect::<Vec<f64>>())
-        };
-        let pieces: Vec<(usize, Vec<f64>)> = values.par_chunks(CHUNK).map(piece).collect();
-        let below = pieces.iter().map(|p| p.0).sum();
-        let mut sorted: Vec<f64> = pieces.into_iter().flat_map(|p| p.1).collect();
-        sorted.par_sort_unstable_by(f64::total_cmp);
-        Self { below, sorted }
+    ///
+    /// # Errors
+    /// What `check` gives.
+    pub fn of<E: Send>(values: &[f64], limits: RangeInclusive<f64>, check: &impl Check<E>) -> Result<Self, E> {
+        let (start, end) = (*limits.start(), *limits.end());
+        let pieces = pieces::map(values.len(), check, |piece| {
+            let values = &values[piece];
+            let within = values.iter().copied().filter(|v| *v >= start && *v < end).collect::<Vec<f64>>();
+            let below = values.iter().filter(|v| **v < start).count();
+            (below, within, values.iter().filter(|v| **v >= end && **v <= end).count())
+        })?;
+        let mut middle = Self { below: 0, within: Vec::new(), at_end: 0, end };
+        for (below, within, at_end) in pieces {
+            middle.below += below;
+            middle.within.extend(within);
+            middle.at_end += at_end;
+        }
+        Ok(middle)
     }
 
     /// The median of the `count` smallest of all values, where what stands in their middle is among these.
-    #[must_use]
-    pub fn median_of_smallest(&self, count: usize) -> Option<f64> {
-        let upper = (count / 2).checked_sub(self.below)?;
-        let &high = self.sorted.get(upper)?;
-        if count.is_multiple_of(2) {
-            Some(mean_of_two(*self.sorted.get(upper.checked_sub(1)?)?, high))
-        } else {
-            Some(high)
+    ///
+    /// # Errors
+    /// What `check` gives.
+    pub fn median_of_smallest<E: Send>(&self, count: usize, check: &impl Check<E>) -> Result<Option<f64>, E> {
+        let last = if count.is_multiple_of(2) { 1 } else { 0 };
+        let upper = (count / 2).checked_sub(self.below);
+        let Some((lower, upper)) = upper.and_then(|upper| Some((upper.checked_sub(last)?, upper))) else {
+            return Ok(None);
+        };
+        let n = self.within.len();
+        if upper >= n + self.at_end {
+            return Ok(None);
         }
+        let inside = [lower, upper].map(|rank| rank.min(n.saturating_sub(1)));
+        let found = if n == 0 { [self.end; 2] } else { rank::of_slice(&self.within, inside, check)? };
+        let [lower, upper] = [(lower, found[0]), (upper, found[1])].map(|(r, v)| if r < n { v } else { self.end });
+        Ok(Some(if last == 1 { mean_of_two(lower, upper) } else { upper }))
     }
 }
 
@@ -133,6 +137,7 @@ pub fn mean_of_two(a: f64, b: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::pieces::{certain, to_the_end};
     use super::*;
 
     #[test]
@@ -153,11 +158,13 @@ mod tests {
             let constant = |_: usize| 3.0;
             for value in [&spread as &(dyn Fn(usize) -> f64 + Sync), &sorted, &misleading, &constant] {
                 let all: Vec<f64> = (0..n).map(value).collect();
-                assert_eq!(median_of_many(n, value).to_bits(), median(&all).to_bits());
+                let of_many = certain(median_of_many(n, value, &to_the_end));
+                assert_eq!(of_many.to_bits(), median(&all).to_bits());
                 let mut sorted = all;
                 sorted.sort_unstable_by(f64::total_cmp);
                 for count in [1, 2, n / 3, n / 2 + 1, n - 1] {
-                    assert_eq!(median_of_smallest(n, count, value).to_bits(), median(&sorted[..count]).to_bits());
+                    let of_smallest = certain(median_of_smallest(n, count, value, &to_the_end));
+                    assert_eq!(of_smallest.to_bits(), median(&sorted[..count]).to_bits());
                 }
             }
         }
@@ -168,16 +175,16 @@ mod tests {
         let values: Vec<f64> = (0..40_000).map(|i| f64::from((i * 7919) % 20_011)).collect();
         let mut sorted = values.clone();
         sorted.sort_unstable_by(f64::total_cmp);
-        let middle = Middle::of(&values, 9_000.0..=10_000.0);
+        let middle = certain(Middle::of(&values, 9_000.0..=10_000.0, &to_the_end));
         let mut known = 0;
         for count in (1..values.len()).step_by(97) {
             let wanted = [(count - 1) / 2, count / 2].map(|rank| sorted[rank]);
             let inside = wanted.iter().all(|v| (9_000.0..=10_000.0).contains(v));
-            let got = middle.median_of_smallest(count);
+            let got = certain(middle.median_of_smallest(count, &to_the_end));
             assert_eq!(got.map(f64::to_bits), inside.then(|| mean_of_two(wanted[0], wanted[1]).to_bits()), "{count}");
             known += usize::from(inside);
         }
-        assert_eq!(middle.median_of_smallest(0), None);
+        assert_eq!(certain(middle.median_of_smallest(0, &to_the_end)), None);
         assert!(known > 30);
     }
 

@@ -78,7 +78,7 @@ impl Method for Adaptive {
 
     fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
         if segment.sigma <= 0.0 {
-            return Ok(Judged::unchecked(segment.len()));
+            return Judged::unchecked_many(segment.len(), stop);
         }
         let rules = Rules::of(settings);
         let model = |_| AdaptiveLine::new(segment.sigma, segment.floor, settings, &rules);

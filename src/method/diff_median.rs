@@ -3,9 +3,10 @@
 
 use rayon::prelude::*;
 
-use super::window::{self, CHUNK, Edge, Windows};
-use super::{About, Judged, Method, Own, Segment, Verdict, exceeds, reaches, shared};
+use super::window::{self, Edge, Windows};
+use super::{About, Judged, Method, Own, Part, Segment, Verdict, exceeds, reaches, shared};
 use crate::math::order::{MAD_TO_SIGMA, median_of_many};
+use crate::math::pieces::{self, PIECE};
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
@@ -81,16 +82,24 @@ impl Method for DiffMedian {
             drift: 4 * settings.whole(MAX_RUN.key) + 1,
             stop,
         };
+        let zero = segment.zero(stop)?;
         let scale = |mad: f64| {
-            let scale = segment.bounded(mad, segment.zero());
+            let scale = segment.bounded(mad, zero);
             if switching { scale.max(segment.sigma) } else { scale }
         };
         judge(segment, &smoother, k, scale, settings.whole(shared::MAX_PASSES.key))
     }
 
     /// The smoothed value that was put in last; the expected value of a sample that only the analyst marked.
-    fn own_repair(&self, _: &Segment<'_>, _: &Settings, judged: &Judged, outliers: &[usize]) -> Vec<f64> {
-        window::replacement_or_expected(judged, outliers)
+    fn own_repair(
+        &self,
+        _: &Segment<'_>,
+        _: &Settings,
+        judged: &Part<'_>,
+        outliers: &[usize],
+        stop: &Stop,
+    ) -> Result<Vec<f64>, Stopped> {
+        window::replacement_or_expected(judged, outliers, stop)
     }
 }
 
@@ -103,46 +112,39 @@ fn judge(
     max_passes: usize,
 ) -> Result<Judged, Stopped> {
     let n = segment.len();
+    let check = || smoother.stop.check();
     let level = window::level(segment.y);
-    let mut x: Vec<f64> = in_parallel(n, |i| segment.y[i] - level);
+    let mut x = pieces::collect(n, &check, |i| segment.y[i] - level)?;
     let judged_ones = smoother.width / 2..n - smoother.width / 2;
     let mut verdict = vec![Verdict::Unchecked; n];
     verdict[judged_ones.clone()].fill(Verdict::Normal);
-    let mut own = in_parallel(n, |_| f64::NAN);
+    let mut own = pieces::collect(n, &check, |_| f64::NAN)?;
     let mut pass = 0;
     loop {
         let z = smoother.smooth(&x)?;
-        let center = median_of_many(n, |i| x[i] - z[i]);
-        let tolerance = k * scale(MAD_TO_SIGMA * median_of_many(n, |i| (x[i] - z[i] - center).abs()));
-        smoother.stop.check()?;
-        let samples = verdict[judged_ones.clone()].par_iter_mut().zip(&mut x[judged_ones.clone()]);
-        let samples = samples.zip(&mut own[judged_ones.clone()]).zip(&z[judged_ones.clone()]);
-        let flag = |(((verdict, x), own), z): (((&mut Verdict, &mut f64), &mut f64), &f64)| {
-            if !reaches((*x - z).abs(), tolerance) {
-                return false;
+        let center = median_of_many(n, |i| x[i] - z[i], &check)?;
+        let tolerance = k * scale(MAD_TO_SIGMA * median_of_many(n, |i| (x[i] - z[i] - center).abs(), &check)?);
+        let both = verdict[judged_ones.clone()].par_chunks_mut(PIECE).zip(x[judged_ones.clone()].par_chunks_mut(PIECE));
+        let other = own[judged_ones.clone()].par_chunks_mut(PIECE).zip(z[judged_ones.clone()].par_chunks(PIECE));
+        let flag = |((verdict, x), (own, z)): ((&mut [Verdict], &mut [f64]), (&mut [f64], &[f64]))| {
+            check()?;
+            let mut new = false;
+            for (((verdict, x), own), z) in verdict.iter_mut().zip(x).zip(own).zip(z) {
+                if reaches((*x - z).abs(), tolerance) {
+                    new |= *verdict == Verdict::Normal;
+                    (*verdict, *x, *own) = (Verdict::Outlier, *z, z + level);
+                }
             }
-            let new = *verdict == Verdict::Normal;
-            (*verdict, *x, *own) = (Verdict::Outlier, *z, z + level);
-            new
+            Ok(new)
         };
-        let new = samples.with_min_len(CHUNK).map(flag).reduce(|| false, |a, b| a | b);
+        let new = both.zip(other).map(flag).try_reduce(|| false, |a, b| Ok(a | b))?;
         pass += 1;
         if !new || pass == max_passes {
-            let expected = in_parallel(n, |i| z[i] + level);
-            return Ok(Judged {
-                verdict,
-                expected,
-                tolerance: in_parallel(n, |_| tolerance),
-                own,
-                ..Judged::default()
-            });
+            let expected = pieces::collect(n, &check, |i| z[i] + level)?;
+            let tolerance = pieces::collect(n, &check, |_| tolerance)?;
+            return Ok(Judged { verdict, expected, tolerance, own, ..Judged::default() });
         }
     }
-}
-
-/// `value(0 .. n)`.
-fn in_parallel(n: usize, value: impl Fn(usize) -> f64 + Sync + Send) -> Vec<f64> {
-    (0..n).into_par_iter().with_min_len(CHUNK).map(value).collect()
 }
 
 /// Steps 1 to 3 of the method.
@@ -157,25 +159,31 @@ struct Smoother<'a> {
 
 impl Smoother<'_> {
     fn smooth(&self, x: &[f64]) -> Result<Vec<f64>, Stopped> {
+        let check = || self.stop.check();
         let m = self.medians(x, self.width)?;
         let n = x.len();
-        let d = in_parallel(n - 1, |i| m[i + 1] - m[i]);
+        let d = pieces::collect(n - 1, &check, |i| m[i + 1] - m[i])?;
         let mut steps = self.medians(&d, self.width)?;
         if let Some(gate) = self.gate {
-            let both = steps.par_iter_mut().zip(&d).with_min_len(CHUNK);
-            both.for_each(|(step, &d)| *step = if exceeds((d - *step).abs(), gate) { *step } else { d });
+            pieces::over(&mut steps, &check, |first, steps| {
+                for (step, &d) in steps.iter_mut().zip(&d[first..]) {
+                    *step = if exceeds((d - *step).abs(), gate) { *step } else { d };
+                }
+            })?;
         }
-        self.stop.check()?;
         let mut z = Vec::with_capacity(n);
         let mut height = m[0];
         z.push(height);
-        z.extend(steps.iter().map(|step| {
-            height += step;
-            height
-        }));
+        for piece in steps.chunks(PIECE) {
+            check()?;
+            z.extend(piece.iter().map(|step| {
+                height += step;
+                height
+            }));
+        }
         if self.gate.is_some() {
-            let drift = self.medians(&in_parallel(n, |i| m[i] - z[i]), self.drift)?;
-            z.par_iter_mut().zip(&drift).with_min_len(CHUNK).for_each(|(z, drift)| *z += drift);
+            let drift = self.medians(&pieces::collect(n, &check, |i| m[i] - z[i])?, self.drift)?;
+            pieces::over(&mut z, &check, |first, z| z.iter_mut().zip(&drift[first..]).for_each(|(z, d)| *z += d))?;
         }
         Ok(z)
     }

@@ -4,18 +4,18 @@
 //! old tolerance and the new one. Blocks of samples remember between which multipliers none of them changes, so that
 //! a step looks at the others alone; scores are shared between the steps.
 
-use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::judged::tolerance_of;
-use super::{Directions, Judged, Restart, Verdict};
+use super::{Directions, Judged, Part, Restart, Verdict};
+use crate::stop::{Stop, Stopped};
 
 /// Samples of a block.
 const BLOCK: usize = 64;
-/// Blocks that one piece of parallel work has at least.
+/// Blocks in one piece of parallel work.
 const PIECE: usize = 256;
 /// A ratio is known to about 1e-15 of itself and ties reach a limit from 1e-9 below it; within this fraction of a
 /// ratio the comparison itself decides.
@@ -54,23 +54,28 @@ impl Gated {
 
     /// The same scores under another multiplier: what [`Judged::gate`] gives, to the last bit. None where the
     /// multiplier does more than gate, or `y` has another length.
-    #[must_use]
-    pub fn regated(&self, y: &[f64], k: f64) -> Option<Self> {
-        let gate = self.gate.as_ref().filter(|g| g.verdict.len() == y.len())?;
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more.
+    pub fn regated(&self, y: &[f64], k: f64, stop: &Stop) -> Result<Option<Self>, Stopped> {
+        let Some(gate) = self.gate.as_ref().filter(|g| g.verdict.len() == y.len()) else { return Ok(None) };
         let mut verdict = gate.verdict.clone();
         let mut still = gate.still.clone();
         // A range that holds no multiplier.
         still.resize(y.len().div_ceil(BLOCK), (f64::INFINITY, 0.0));
         let (expected, scale) = (&self.scores.expected, &self.scores.scale);
-        verdict.par_chunks_mut(BLOCK).zip(&mut still).enumerate().with_min_len(PIECE).for_each(
-            |(block, (v, still))| {
+        let pieces = verdict.par_chunks_mut(PIECE * BLOCK).zip(still.par_chunks_mut(PIECE)).enumerate();
+        pieces.try_for_each(|(piece, (verdict, still))| {
+            stop.check()?;
+            for (block, (v, still)) in (piece * PIECE..).zip(verdict.chunks_mut(BLOCK).zip(still)) {
                 if !(still.0 < k && k < still.1) {
                     let range = block * BLOCK..block * BLOCK + v.len();
                     *still = gate_block(v, &y[range.clone()], &expected[range.clone()], &scale[range], k);
                 }
-            },
-        );
-        Some(Self { scores: Arc::clone(&self.scores), gate: Some(Gate { k, verdict, still }) })
+            }
+            Ok(())
+        })?;
+        Ok(Some(Self { scores: Arc::clone(&self.scores), gate: Some(Gate { k, verdict, still }) }))
     }
 
     /// True when both gate the same scores.
@@ -125,14 +130,10 @@ impl Gated {
         &self.scores.warnings
     }
 
-    /// What a method's own repair needs to know of a segment. No verdicts and tolerances where the multiplier only
-    /// gates.
+    /// What a method's own repair needs to know of a segment. No verdicts where the multiplier only gates.
     #[must_use]
-    pub fn slice(&self, range: Range<usize>) -> Cow<'_, Judged> {
-        if range == (0..self.verdict().len()) {
-            return Cow::Borrowed(&self.scores);
-        }
-        self.scores.slice(range)
+    pub fn part(&self, range: Range<usize>) -> Part<'_> {
+        self.scores.part(range)
     }
 }
 
@@ -179,10 +180,10 @@ mod tests {
         ) {
             let y: Vec<f64> = samples.iter().map(|s| s.0).collect();
             let (expected, scale): (Vec<f64>, Vec<f64>) = samples.iter().map(|s| (s.1, s.2)).unzip();
-            let fresh = |k| Judged::gated(&y, expected.clone(), scale.clone(), k);
+            let fresh = |k| Judged::gated(&y, expected.clone(), scale.clone(), k, &Stop::never()).unwrap();
             let mut gated = Gated::new(fresh(3.0), Some(3.0));
             for k in steps {
-                gated = gated.regated(&y, k).unwrap();
+                gated = gated.regated(&y, k, &Stop::never()).unwrap().unwrap();
                 let plain = fresh(k);
                 prop_assert_eq!(gated.verdict(), &plain.verdict);
                 let tolerance = (0..y.len()).map(|i| gated.tolerance(i).unwrap());
@@ -204,7 +205,7 @@ mod tests {
     fn only_a_multiplier_that_gates_can_be_turned() {
         let judged = Judged::unchecked(3);
         let gated = Gated::new(judged, Some(3.0));
-        assert!(gated.regated(&[0.0; 3], 2.0).is_none());
+        assert!(gated.regated(&[0.0; 3], 2.0, &Stop::never()).unwrap().is_none());
         assert_eq!((gated.verdict().len(), gated.tolerance(1).is_some_and(f64::is_nan)), (3, true));
     }
 }

@@ -83,25 +83,30 @@ impl Criterion for Rosner {
             reason = "0..n"
         )]
         let most = ((self.max_fraction * n as f64) as usize).max(1);
-        let mut removals = Removals::new(survivors.residual);
+        let mut removals = Removals::new(survivors.residual, stop)?;
         // Before each removal the moments, and with it the deviation of what is removed.
         let mut tested: Vec<(Moments, f64)> = Vec::with_capacity(most);
         while tested.len() < most && removals.len() >= 3 {
             stop.check_at(tested.len())?;
             let before = removals.left;
-            let Some(deviation) = removals.take() else { break };
+            let Some(deviation) = removals.take(stop)? else { break };
             tested.push((before, deviation));
         }
         let scale = |left: &Moments| survivors.bounded(left.deviation());
         // Critical values grow with the sample: what does not exceed the smallest needs no other.
         let smallest = self.critical.at(n - tested.len().saturating_sub(1));
-        let significant = |(removed, (left, deviation)): &(usize, &(Moments, f64))| {
+        let significant = |removed: usize| {
+            let (left, deviation) = &tested[removed];
             let scale = scale(left);
             scale > 0.0
                 && exceeds(*deviation, smallest * scale)
                 && exceeds(*deviation, self.critical.at(n - removed) * scale)
         };
-        let last = tested.iter().enumerate().rev().find(significant).map_or(0, |(removed, _)| removed + 1);
+        let mut last = tested.len();
+        while last > 0 && !significant(last - 1) {
+            last -= 1;
+            stop.check_at(last)?;
+        }
         let left = tested.get(last).map_or(removals.left, |(left, _)| *left);
         let scale = scale(&left);
         let tolerance = if n - last >= 3 { self.critical.at(n - last) * scale } else { 0.0 };

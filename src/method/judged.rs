@@ -1,14 +1,12 @@
 //! What a method says of a segment.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::verdict::{Direction, Restart, Verdict};
-
-/// Samples in one piece of parallel work.
-const CHUNK: usize = 8192;
+use crate::math::pieces::{self, PIECE};
+use crate::stop::{Stop, Stopped};
 
 /// What a method says of a segment: one entry per sample, in order.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -32,6 +30,20 @@ pub struct Judged {
     pub restarts: Vec<Restart>,
     /// What the user should know about this result, one line each.
     pub warnings: Vec<String>,
+}
+
+/// What a method's own repair needs to know of a segment that was judged: entries as in [`Judged`], each list empty
+/// where that has none.
+#[derive(Debug, Clone, Copy)]
+pub struct Part<'a> {
+    /// The verdicts; empty where the multiplier only gates and the scores are all that is known.
+    pub verdict: &'a [Verdict],
+    /// Expected values; NaN where there is none.
+    pub expected: &'a [f64],
+    /// What the method's own repair needs to know beyond the rest, coded by the method.
+    pub repair_code: &'a [[u8; 2]],
+    /// What the method's own repair puts in place of a sample; NaN where nothing.
+    pub own: &'a [f64],
 }
 
 /// What the two directions say of a sample; none for a direction that was not run.
@@ -62,86 +74,119 @@ impl Judged {
         }
     }
 
+    /// [`Judged::unchecked`] for many samples.
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more.
+    pub fn unchecked_many(n: usize, stop: &Stop) -> Result<Self, Stopped> {
+        let nothing = || pieces::collect(n, &|| stop.check(), |_| f64::NAN);
+        let verdict = vec![Verdict::Unchecked; n];
+        Ok(Self { verdict, expected: nothing()?, tolerance: nothing()?, ..Self::default() })
+    }
+
     /// Without infinities: where values near the largest double made an expected value or a tolerance overflow, there is
     /// none, and the sample is unchecked, for nothing was found out about it. Nor is a sample an outlier without both.
-    #[must_use]
-    pub fn bounded(mut self) -> Self {
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more.
+    pub fn bounded(mut self, stop: &Stop) -> Result<Self, Stopped> {
         if self.scale.len() == self.verdict.len() {
             // [`Judged::gate`] has seen to it.
-            return self;
+            return Ok(self);
         }
-        for ((verdict, p), h) in self.verdict.iter_mut().zip(&mut self.expected).zip(&mut self.tolerance) {
-            if p.is_finite() && h.is_finite() {
-                continue;
+        let pieces = self.verdict.par_chunks_mut(PIECE).zip(self.expected.par_chunks_mut(PIECE));
+        pieces.zip(self.tolerance.par_chunks_mut(PIECE)).try_for_each(|((verdict, expected), tolerance)| {
+            stop.check()?;
+            for ((verdict, p), h) in verdict.iter_mut().zip(expected).zip(tolerance) {
+                bound(verdict, p, h);
             }
-            if *verdict == Verdict::Outlier || p.is_infinite() || h.is_infinite() {
-                *verdict = Verdict::Unchecked;
-            }
-            for value in [p, h] {
-                if value.is_infinite() {
-                    *value = f64::NAN;
-                }
-            }
-        }
-        self
+            Ok(())
+        })?;
+        Ok(self)
     }
 
     /// Verdicts from expected values and scales for a multiplier `k`: tolerance `k * scale`; a sample without an
     /// expected value or with a tolerance that overflows is unchecked, one with a zero scale normal.
-    #[must_use]
-    pub fn gated(y: &[f64], mut expected: Vec<f64>, scale: Vec<f64>, k: f64) -> Self {
-        expected.iter_mut().filter(|p| p.is_infinite()).for_each(|p| *p = f64::NAN);
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more.
+    pub fn gated(y: &[f64], mut expected: Vec<f64>, scale: Vec<f64>, k: f64, stop: &Stop) -> Result<Self, Stopped> {
+        pieces::over(&mut expected, &|| stop.check(), |_, expected| {
+            expected.iter_mut().filter(|p| p.is_infinite()).for_each(|p| *p = f64::NAN);
+        })?;
         let mut judged = Self { expected, scale, ..Self::default() };
-        judged.gate(y, k);
-        judged
+        judged.gate(y, k, stop)?;
+        Ok(judged)
     }
 
     /// Judges again from [`Judged::scale`] with another multiplier.
-    pub fn gate(&mut self, y: &[f64], k: f64) {
-        let said = |((&p, &scale), &y): ((&f64, &f64), &f64)| {
-            let tolerance = tolerance_of(k, scale);
-            (tolerance, Verdict::of_deviation(y, p, tolerance))
-        };
-        let scores = self.expected.par_iter().zip(&self.scale).zip(y).with_min_len(CHUNK);
-        scores.map(said).unzip_into_vecs(&mut self.tolerance, &mut self.verdict);
-    }
-
-    /// The part of a channel's judgement that is about one of its segments.
-    #[must_use]
-    pub fn slice(&self, range: Range<usize>) -> Cow<'_, Self> {
-        if range == (0..self.verdict.len()) {
-            return Cow::Borrowed(self);
-        }
-        let inside = |r: &&Restart| range.contains(&r.at);
-        Cow::Owned(Self {
-            verdict: part(&self.verdict, &range),
-            expected: part(&self.expected, &range),
-            tolerance: part(&self.tolerance, &range),
-            scale: part(&self.scale, &range),
-            directions: part(&self.directions, &range),
-            repair_code: part(&self.repair_code, &range),
-            own: part(&self.own, &range),
-            restarts: self.restarts.iter().filter(inside).map(|r| Restart { at: r.at - range.start, ..*r }).collect(),
-            warnings: Vec::new(),
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more; there are no verdicts then.
+    pub fn gate(&mut self, y: &[f64], k: f64, stop: &Stop) -> Result<(), Stopped> {
+        let n = self.scale.len();
+        (self.tolerance, self.verdict) = (vec![0.0; n], vec![Verdict::Unchecked; n]);
+        let scores = self.expected.par_chunks(PIECE).zip(self.scale.par_chunks(PIECE)).zip(y.par_chunks(PIECE));
+        let pieces = self.tolerance.par_chunks_mut(PIECE).zip(self.verdict.par_chunks_mut(PIECE)).zip(scores);
+        pieces.try_for_each(|((tolerance, verdict), ((expected, scale), y))| {
+            stop.check()?;
+            let said = tolerance.iter_mut().zip(verdict);
+            for ((tolerance, verdict), ((&p, &scale), &y)) in said.zip(expected.iter().zip(scale).zip(y)) {
+                *tolerance = tolerance_of(k, scale);
+                *verdict = Verdict::of_deviation(y, p, *tolerance);
+            }
+            Ok(())
         })
     }
 
+    /// The part of a channel's judgement that is about one of its segments, or all of it.
+    #[must_use]
+    pub fn part(&self, range: Range<usize>) -> Part<'_> {
+        Part {
+            verdict: part(&self.verdict, &range),
+            expected: part(&self.expected, &range),
+            repair_code: part(&self.repair_code, &range),
+            own: part(&self.own, &range),
+        }
+    }
+
     /// Appends the judgement of the next segment of the same channel.
-    pub fn append(&mut self, mut next: Self) {
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more.
+    pub fn append(&mut self, next: Self, stop: &Stop) -> Result<(), Stopped> {
         let (offset, added) = (self.verdict.len(), next.verdict.len());
-        self.verdict.append(&mut next.verdict);
-        self.expected.append(&mut next.expected);
-        self.tolerance.append(&mut next.tolerance);
+        let check = || stop.check();
+        pieces::extend(&mut self.verdict, &next.verdict, &check)?;
+        pieces::extend(&mut self.expected, &next.expected, &check)?;
+        pieces::extend(&mut self.tolerance, &next.tolerance, &check)?;
         let lengths = (offset, added);
-        join(&mut self.scale, next.scale, lengths, f64::NAN);
-        join(&mut self.directions, next.directions, lengths, Directions { forward: None, backward: None });
-        join(&mut self.repair_code, next.repair_code, lengths, [0, 0]);
-        join(&mut self.own, next.own, lengths, f64::NAN);
+        join(&mut self.scale, &next.scale, lengths, f64::NAN, stop)?;
+        join(&mut self.directions, &next.directions, lengths, Directions { forward: None, backward: None }, stop)?;
+        join(&mut self.repair_code, &next.repair_code, lengths, [0, 0], stop)?;
+        join(&mut self.own, &next.own, lengths, f64::NAN, stop)?;
         self.restarts.extend(next.restarts.into_iter().map(|r| Restart { at: r.at + offset, ..r }));
         for warning in next.warnings {
             if !self.warnings.contains(&warning) {
                 self.warnings.push(warning);
             }
+        }
+        Ok(())
+    }
+}
+
+/// What [`Judged::bounded`] does with one sample.
+#[inline]
+fn bound(verdict: &mut Verdict, p: &mut f64, h: &mut f64) {
+    if p.is_finite() && h.is_finite() {
+        return;
+    }
+    if *verdict == Verdict::Outlier || p.is_infinite() || h.is_infinite() {
+        *verdict = Verdict::Unchecked;
+    }
+    for value in [p, h] {
+        if value.is_infinite() {
+            *value = f64::NAN;
         }
     }
 }
@@ -149,15 +194,31 @@ impl Judged {
 /// Appends what a segment has to say where a method says it only of some segments: of `added` samples after the
 /// `offset` that are there. Where one side has nothing, `nothing` stands for each of its samples, so that the entries
 /// stay with their samples.
-fn join<T: Clone>(all: &mut Vec<T>, mut next: Vec<T>, (offset, added): (usize, usize), nothing: T) {
+fn join<T: Copy>(
+    all: &mut Vec<T>,
+    next: &[T],
+    (offset, added): (usize, usize),
+    nothing: T,
+    stop: &Stop,
+) -> Result<(), Stopped> {
     if all.is_empty() && next.is_empty() {
-        return;
+        return Ok(());
     }
-    all.resize(offset, nothing.clone());
-    all.append(&mut next);
-    all.resize(offset + added, nothing);
+    let check = || stop.check();
+    grow(all, offset, nothing, stop)?;
+    pieces::extend(all, next, &check)?;
+    grow(all, offset + added, nothing, stop)
 }
 
-fn part<T: Clone>(all: &[T], range: &Range<usize>) -> Vec<T> {
-    all.get(range.clone()).map(<[T]>::to_vec).unwrap_or_default()
+/// Fills a list up to `n` entries.
+fn grow<T: Copy>(all: &mut Vec<T>, n: usize, entry: T, stop: &Stop) -> Result<(), Stopped> {
+    while all.len() < n {
+        stop.check()?;
+        all.resize(n.min(all.len() + PIECE), entry);
+    }
+    Ok(())
+}
+
+fn part<'a, T>(all: &'a [T], range: &Range<usize>) -> &'a [T] {
+    all.get(range.clone()).unwrap_or_default()
 }

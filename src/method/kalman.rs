@@ -1,7 +1,7 @@
 //! Kalman innovation test with infill: section 7 of the methods page, \[004\].
 
 use super::predictor::{Engine, Page, feed};
-use super::{About, Judged, Method, Own, Segment, Together, Verdict, Way, shared};
+use super::{About, Judged, Method, Own, Part, Segment, Together, Verdict, Way, shared};
 use crate::param::{Kind, Param, Settings, Step, Value, always};
 use crate::stop::{Stop, Stopped};
 use crate::track::Series;
@@ -147,7 +147,7 @@ impl Method for Kalman {
 
     fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
         if segment.sigma <= 0.0 {
-            return Ok(Judged::unchecked(segment.len()));
+            return Judged::unchecked_many(segment.len(), stop);
         }
         let mut tuning = Tuning::of(settings, segment.sigma, segment.interval);
         if joint(settings) {
@@ -170,7 +170,14 @@ impl Method for Kalman {
         judge_joint(channels, settings, stop)
     }
 
-    fn own_repair(&self, segment: &Segment<'_>, settings: &Settings, judged: &Judged, outliers: &[usize]) -> Vec<f64> {
+    fn own_repair(
+        &self,
+        segment: &Segment<'_>,
+        settings: &Settings,
+        judged: &Part<'_>,
+        outliers: &[usize],
+        stop: &Stop,
+    ) -> Result<Vec<f64>, Stopped> {
         let fill = plan(settings).fill;
         let mut accepted = vec![true; segment.len()];
         for &i in outliers {
@@ -178,7 +185,8 @@ impl Method for Kalman {
         }
         let flagged = |i: Option<usize>| i.is_some_and(|i| judged.verdict.get(i) == Some(&Verdict::Outlier));
         let mut values = Vec::with_capacity(outliers.len());
-        for run in outliers.chunk_by(|a, b| a + 1 == *b) {
+        for (n, run) in outliers.chunk_by(|a, b| a + 1 == *b).enumerate() {
+            stop.check_at(4 * n)?;
             let (first, last) = (run.first().copied(), run.last().copied());
             // A run that the analyst has changed is not the one the filter went over: it is filled anew.
             let as_judged = run.iter().all(|&i| flagged(Some(i)))
@@ -190,7 +198,7 @@ impl Method for Kalman {
                 values.extend(fill.values(segment.t, segment.y, |i| accepted[i], run));
             }
         }
-        values
+        Ok(values)
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {
@@ -231,7 +239,6 @@ impl Record for One<'_> {
         };
         let mut engine = Engine::new(Single::new(self.tuning), self.segment.interval, self.max_run);
         feed(&mut engine, self.segment.t, sample, way, page, stop)?;
-        page.complete();
-        Ok(())
+        page.complete(stop)
     }
 }

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::{About, Judged, Method, Own, Segment, shared};
-use crate::math::order::{mad_scale_in_place, median};
-use crate::math::{integral, leave_one_out};
+use crate::math::order::{MAD_TO_SIGMA, median_of_many};
+use crate::math::{integral, leave_one_out, pieces};
 use crate::param::{Choice, Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
@@ -57,25 +57,27 @@ impl Method for Matched {
     fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
         let n = segment.len();
         let Some(rate) = segment.rate else {
-            let mut judged = Judged::unchecked(n);
+            let mut judged = Judged::unchecked_many(n, stop)?;
             judged.warnings.push("matched needs a channel that measures the rate: name it with --rate".into());
             return Ok(judged);
         };
-        stop.check()?;
-        let integral = integral::to_times(rate.t, rate.y, segment.t);
+        let check = || stop.check();
+        let integral = integral::to_times(rate.t, rate.y, segment.t, &check)?;
         // R(t_k) carried to t_i is (R - I)(t_k) + I(t_i): one sliding median of R - I serves all samples.
-        let rest: Vec<f64> = segment.y.iter().zip(&integral).map(|(y, [sum, rest])| (y - sum) - rest).collect();
+        let rest = pieces::collect(n, &check, |i| (segment.y[i] - integral[i][0]) - integral[i][1])?;
         let size = settings.whole(WINDOW.key);
         let mut expected = leave_one_out::medians(&rest, |i| window(i, size, n), LEAST, |i| stop.check_at(i))?;
-        for (p, [sum, rest]) in expected.iter_mut().zip(&integral) {
-            *p = (*p + sum) + rest;
-        }
+        pieces::over(&mut expected, &check, |first, expected| {
+            for (p, [sum, rest]) in expected.iter_mut().zip(&integral[first..]) {
+                *p = (*p + sum) + rest;
+            }
+        })?;
         let sigma = match settings.choice(SIGMA.key) {
             Choice::Number(sigma) => sigma,
-            Choice::Word(_) => residual_scale(segment, &expected),
+            Choice::Word(_) => residual_scale(segment, &expected, stop)?,
         };
-        let scale = expected.iter().map(|p| if p.is_nan() { f64::NAN } else { sigma }).collect();
-        Ok(Judged::gated(segment.y, expected, scale, settings.real(shared::K.key)))
+        let scale = pieces::collect(n, &check, |i| if expected[i].is_nan() { f64::NAN } else { sigma })?;
+        Judged::gated(segment.y, expected, scale, settings.real(shared::K.key), stop)
     }
 
     fn gate(&self, _: &Settings) -> Option<&'static str> {
@@ -109,13 +111,20 @@ fn window(i: usize, size: usize, n: usize) -> Range<usize> {
 }
 
 /// `1.4826 MAD` of value minus expected value, at least the floor; 0 when nothing is expected.
-fn residual_scale(segment: &Segment<'_>, expected: &[f64]) -> f64 {
-    let mut residuals: Vec<f64> = segment.y.iter().zip(expected).map(|(y, p)| y - p).filter(|r| !r.is_nan()).collect();
+fn residual_scale(segment: &Segment<'_>, expected: &[f64], stop: &Stop) -> Result<f64, Stopped> {
+    let check = || stop.check();
+    let residuals = |piece: Range<usize>| {
+        let all = piece.map(|i| segment.y[i] - expected[i]);
+        all.filter(|r| !r.is_nan()).collect::<Vec<f64>>()
+    };
+    let residuals = pieces::map(expected.len(), &check, residuals)?.concat();
     if residuals.is_empty() {
-        return segment.floor;
+        return Ok(segment.floor);
     }
-    let center = median(&residuals);
-    segment.bounded(mad_scale_in_place(&mut residuals, center), segment.zero())
+    let n = residuals.len();
+    let center = median_of_many(n, |i| residuals[i], &check)?;
+    let scale = MAD_TO_SIGMA * median_of_many(n, |i| (residuals[i] - center).abs(), &check)?;
+    Ok(segment.bounded(scale, segment.zero(stop)?))
 }
 
 #[cfg(test)]
@@ -137,7 +146,8 @@ mod tests {
         let t: Vec<f64> = (0..200).map(|i| 0.5 * f64::from(i)).collect();
         let speed: Vec<f64> = t.iter().map(|t| if *t < 50.0 { 10.0 } else { -40.0 }).collect();
         let noise = |i: usize| ((i * 7919 % 101) as f64 / 50.0 - 1.0) * 0.1;
-        let mut y: Vec<f64> = integral::to_times(&t, &speed, &t).iter().map(|[a, b]| a + b).collect();
+        let measured = integral::to_times(&t, &speed, &t, &|| Stop::never().check())?;
+        let mut y: Vec<f64> = measured.iter().map(|[a, b]| a + b).collect();
         (0..y.len()).for_each(|i| y[i] += 1e6 + noise(i));
         (120..126).for_each(|i| y[i] += 3.0);
         let rate = Some(Rate { t: &t, y: &speed });

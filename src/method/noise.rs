@@ -5,18 +5,16 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::{exceeds, zero_scale};
+use super::{exceeds, zero_scale_of_many};
 use crate::math::movement::smallest_movement;
 use crate::math::order::{MAD_TO_SIGMA, Middle, median_of_many, median_of_smallest};
-use crate::math::{difference, smoothing};
+use crate::math::{difference, pieces, smoothing};
 use crate::param::{Choice, Kind, Settings};
+use crate::stop::{Stop, Stopped};
 use crate::track::Series;
 
 /// With fewer differences than this in a segment, those of all segments of the channel are pooled.
 const ENOUGH: usize = 50;
-
-/// Differences in one piece of parallel work.
-const CHUNK: usize = 16_384;
 
 /// The deviation of a third difference of white noise of deviation 1: sqrt(1 + 9 + 9 + 1).
 const THIRD: f64 = 4.472_135_954_999_58;
@@ -32,32 +30,38 @@ pub struct Scales {
 }
 
 /// The scales of each segment under `settings` (which may have neither `sigma` nor `floor`).
-#[must_use]
-pub fn scales(series: &Series<'_>, segments: &[Range<usize>], settings: &Settings) -> Vec<Scales> {
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for them any more.
+pub fn scales(
+    series: &Series<'_>,
+    segments: &[Range<usize>],
+    settings: &Settings,
+    stop: &Stop,
+) -> Result<Vec<Scales>, Stopped> {
     let floors = match choice(settings, "floor") {
         None => vec![0.0; segments.len()],
         Some(Choice::Number(x)) => vec![x; segments.len()],
-        Some(Choice::Word(_)) => auto_floor(series, segments),
+        Some(Choice::Word(_)) => auto_floor(series, segments, stop)?,
     };
     let sigmas = match choice(settings, "sigma") {
         None => vec![0.0; segments.len()],
         Some(Choice::Number(x)) => vec![x; segments.len()],
         Some(Choice::Word(_)) if !by_noise(settings) => vec![0.0; segments.len()],
-        Some(Choice::Word("spline")) => by_spline(series, segments),
-        Some(Choice::Word(_)) => by_difference(series, segments),
+        Some(Choice::Word("spline")) => by_spline(series, segments, stop)?,
+        Some(Choice::Word(_)) => by_difference(series, segments, stop)?,
     };
     let asked = choice(settings, "sigma").is_some();
     let both = sigmas.into_iter().zip(floors).zip(segments);
     both.map(|((sigma, floor), segment)| {
-        let counts = sigma > zero_scale(&series.y[segment.clone()]);
         let sigma = if !asked {
             0.0
-        } else if counts {
+        } else if sigma > zero_scale_of_many(&series.y[segment.clone()], stop)? {
             sigma.max(floor)
         } else {
             floor
         };
-        Scales { sigma, floor }
+        Ok(Scales { sigma, floor })
     })
     .collect()
 }
@@ -74,55 +78,67 @@ fn choice(settings: &Settings, key: &str) -> Option<Choice> {
 
 /// Noise scale from third differences: robust (1.07 at 5 %, 1.17 at 10 % isolated outliers, useless near 20 %) and
 /// blind to smooth trends. 0 for a segment without four neighbours when no other segment has them.
-#[must_use]
-pub fn by_difference(series: &Series<'_>, segments: &[Range<usize>]) -> Vec<f64> {
-    pooled(segments, |segment| third_differences(series, segment), |d| spread(d) / THIRD)
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for it any more.
+pub fn by_difference(series: &Series<'_>, segments: &[Range<usize>], stop: &Stop) -> Result<Vec<f64>, Stopped> {
+    pooled(segments, |segment| third_differences(series, segment, stop), |d| spread(d, stop).map(|scale| scale / THIRD))
 }
 
 /// Noise scale by eq. (2) of \[000\]: the sample standard deviation of the data about a natural cubic smoothing
 /// spline with half power at a period of 20 intervals. Outliers inflate it.
-#[must_use]
-pub fn by_spline(series: &Series<'_>, segments: &[Range<usize>]) -> Vec<f64> {
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for it any more.
+pub fn by_spline(series: &Series<'_>, segments: &[Range<usize>], stop: &Stop) -> Result<Vec<f64>, Stopped> {
     let of = |segment: &Range<usize>| {
         let (t, y) = (&series.t[segment.clone()], &series.y[segment.clone()]);
-        smoothing::residual_deviation(t, y, series.interval)
+        smoothing::residual_deviation(t, y, series.interval, &|| stop.check())
     };
     segments.par_iter().map(of).collect()
 }
 
 /// The floor for quantised data: half the smallest non-zero step or third difference between neighbours.
-#[must_use]
-pub fn auto_floor(series: &Series<'_>, segments: &[Range<usize>]) -> Vec<f64> {
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for it any more.
+pub fn auto_floor(series: &Series<'_>, segments: &[Range<usize>], stop: &Stop) -> Result<Vec<f64>, Stopped> {
     // For each segment: how many third differences it has, and its smallest movement.
     let of = |segment: &Range<usize>| {
         let y = &series.y[segment.clone()];
-        (y.len().saturating_sub(3), smallest_movement(y, zero_scale(y)))
+        let zero = zero_scale_of_many(y, stop)?;
+        Ok((y.len().saturating_sub(3), smallest_movement(y, zero, &|| stop.check())?))
     };
-    let each: Vec<(usize, f64)> = segments.par_iter().map(of).collect();
+    let each: Vec<(usize, f64)> = segments.par_iter().map(of).collect::<Result<_, Stopped>>()?;
     let all = each.iter().map(|e| e.1).fold(f64::INFINITY, f64::min);
     let half = |smallest: f64| if smallest.is_finite() { smallest / 2.0 } else { 0.0 };
-    each.into_iter().map(|(n, own)| half(if n < ENOUGH { all } else { own })).collect()
+    Ok(each.into_iter().map(|(n, own)| half(if n < ENOUGH { all } else { own })).collect())
 }
 
 /// `1.4826 * median |d - median(d)|`, again and again on the differences within three such scales of the median of
 /// all until it stands still: the outliers' share of the tails is cut off.
-fn spread(differences: &mut [f64]) -> f64 {
+fn spread(differences: &mut [f64], stop: &Stop) -> Result<f64, Stopped> {
     if differences.is_empty() {
-        return 0.0;
+        return Ok(0.0);
     }
+    let check = || stop.check();
     let n = differences.len();
-    let center = median_of_many(n, |i| differences[i]);
-    differences.par_iter_mut().with_min_len(CHUNK).for_each(|d| *d = (*d - center).abs());
-    let median = median_of_many(n, |i| differences[i]);
+    let center = median_of_many(n, |i| differences[i], &check)?;
+    pieces::over(differences, &check, |_, d| d.iter_mut().for_each(|d| *d = (*d - center).abs()))?;
+    let differences = &*differences;
+    let median = median_of_many(n, |i| differences[i], &check)?;
     let mut scale = MAD_TO_SIGMA * median;
-    // Without the tails the median is a little less: those values are put in order once.
-    let middle = Middle::of(differences, 0.9 * median..=median);
+    // Without the tails the median is a little less: those values are looked for once.
+    let middle = Middle::of(differences, 0.9 * median..=median, &check)?;
     for _ in 0..20 {
         // What lies within are the smallest of all; the limit is taken anew from all of them each time.
-        let within = |d: &[f64]| d.iter().filter(|d| !exceeds(**d, 3.0 * scale)).count();
-        let count = differences.par_chunks(CHUNK).map(within).sum();
-        let next = middle.median_of_smallest(count);
-        let next = MAD_TO_SIGMA * next.unwrap_or_else(|| median_of_smallest(n, count, |i| differences[i]));
+        let within = |piece: Range<usize>| differences[piece].iter().filter(|d| !exceeds(**d, 3.0 * scale)).count();
+        let count = pieces::map(n, &check, within)?.into_iter().sum();
+        let next = match middle.median_of_smallest(count, &check)? {
+            Some(next) => next,
+            None => median_of_smallest(n, count, |i| differences[i], &check)?,
+        };
+        let next = MAD_TO_SIGMA * next;
         // Standing still is meant literally: the same subset has the same median, bit for bit.
         #[expect(clippy::float_cmp, reason = "a fixed point of a selection")]
         if next == scale {
@@ -130,13 +146,13 @@ fn spread(differences: &mut [f64]) -> f64 {
         }
         scale = next;
     }
-    scale
+    Ok(scale)
 }
 
 /// The third differences over the quadruples of a segment without a lost sample.
-fn third_differences(series: &Series<'_>, segment: &Range<usize>) -> Vec<f64> {
+fn third_differences(series: &Series<'_>, segment: &Range<usize>, stop: &Stop) -> Result<Vec<f64>, Stopped> {
     let (t, y) = (&series.t[segment.clone()], &series.y[segment.clone()]);
-    let losses = series.losses(segment.clone(), 0);
+    let losses = series.losses(segment.clone(), 0, &|| stop.check())?;
     // A stretch without a loss has one for each of its samples but the first three.
     let begins = std::iter::once(0).chain(losses.iter().map(|at| at - segment.start));
     let ends = losses.iter().map(|at| at - segment.start).chain(std::iter::once(y.len()));
@@ -147,15 +163,15 @@ fn third_differences(series: &Series<'_>, segment: &Range<usize>) -> Vec<f64> {
     for stretch in stretches {
         let (own, others) = rest.split_at_mut(stretch.len() - 3);
         rest = others;
-        own.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| {
-            let at = stretch.start + chunk * CHUNK;
+        pieces::over(own, &|| stop.check(), |first, out| {
+            let at = stretch.start + first;
             let ([t0, t1, t2, t3], [y0, y1, y2, y3]) = (four(&t[at..], out.len()), four(&y[at..], out.len()));
             for (i, d) in out.iter_mut().enumerate() {
                 *d = difference::third([t0[i], t1[i], t2[i], t3[i]], [y0[i], y1[i], y2[i], y3[i]]);
             }
-        });
+        })?;
     }
-    differences
+    Ok(differences)
 }
 
 /// The `n` values from each of the first four on, so that quadruples may be handled with vector instructions.
@@ -166,18 +182,27 @@ fn four(x: &[f64], n: usize) -> [&[f64]; 4] {
 /// One figure per segment from its differences, or from those of all segments where it has too few.
 fn pooled(
     segments: &[Range<usize>],
-    differences: impl Fn(&Range<usize>) -> Vec<f64> + Sync,
-    figure: impl Fn(&mut [f64]) -> f64 + Sync,
-) -> Vec<f64> {
-    let mut each: Vec<Vec<f64>> = segments.par_iter().map(&differences).collect();
+    differences: impl Fn(&Range<usize>) -> Result<Vec<f64>, Stopped> + Sync,
+    figure: impl Fn(&mut [f64]) -> Result<f64, Stopped> + Sync,
+) -> Result<Vec<f64>, Stopped> {
+    let mut each: Vec<Vec<f64>> = segments.par_iter().map(&differences).collect::<Result<_, _>>()?;
     let few = each.iter().any(|d| d.len() < ENOUGH);
-    let all = if few { figure(&mut each.concat()) } else { 0.0 };
-    each.par_iter_mut().map(|d| if d.len() < ENOUGH { all } else { figure(d) }).collect()
+    let all = if few { figure(&mut each.concat())? } else { 0.0 };
+    each.par_iter_mut().map(|d| if d.len() < ENOUGH { Ok(all) } else { figure(d) }).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::method::zero_scale;
+
+    fn by_difference(series: &Series<'_>, segments: &[Range<usize>]) -> Vec<f64> {
+        super::by_difference(series, segments, &Stop::never()).unwrap()
+    }
+
+    fn auto_floor(series: &Series<'_>, segments: &[Range<usize>]) -> Vec<f64> {
+        super::auto_floor(series, segments, &Stop::never()).unwrap()
+    }
 
     /// Noise of deviation close to 1 from a fixed low-discrepancy walk: no generator is needed to make it.
     fn noise(n: usize) -> Vec<f64> {
@@ -201,7 +226,7 @@ mod tests {
         (0..n).step_by(20).for_each(|i| spiked[i] += 30.0);
         let of_spiked = by_difference(&Series::new(&t, &spiked), &segments)[0];
         assert!((of_spiked / of_noise - 1.0).abs() < 0.15, "{of_spiked} {of_noise}");
-        assert!(by_spline(&Series::new(&t, &spiked), &segments)[0] > 3.0 * of_noise);
+        assert!(by_spline(&Series::new(&t, &spiked), &segments, &Stop::never()).unwrap()[0] > 3.0 * of_noise);
     }
 
     #[test]

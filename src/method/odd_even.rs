@@ -1,7 +1,8 @@
 //! Odd-even extraction: Wright's criterion within groups of samples that are not neighbours.
 
 use super::trend::{self, AtOnce, Criterion};
-use super::{About, Judged, Method, Own, Segment, shared};
+use super::{About, Judged, Method, Own, Part, Segment, shared};
+use crate::math::pieces;
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
@@ -58,12 +59,20 @@ impl Method for OddEven {
 
     /// The trend at the sample plus the residual of the previous normal sample of its group; where there is none, of
     /// the next one (\[001\]: "the second replaces the first").
-    fn own_repair(&self, segment: &Segment<'_>, settings: &Settings, judged: &Judged, outliers: &[usize]) -> Vec<f64> {
+    fn own_repair(
+        &self,
+        segment: &Segment<'_>,
+        settings: &Settings,
+        judged: &Part<'_>,
+        outliers: &[usize],
+        stop: &Stop,
+    ) -> Result<Vec<f64>, Stopped> {
         let groups = groups(settings);
         let mut normal = vec![true; segment.len()];
         outliers.iter().for_each(|&i| normal[i] = false);
         let blocks = trend::blocks(segment.len(), settings.whole(shared::BLOCK.key));
-        let replaced = |&i: &usize| {
+        let replaced = |n: usize| {
+            let i = outliers[n];
             let at = blocks.partition_point(|block| block.end <= i);
             let Some(block) = blocks.get(at) else { return f64::NAN };
             let before = (block.start..i).rev().skip(groups - 1).step_by(groups).find(|&j| normal[j]);
@@ -71,7 +80,7 @@ impl Method for OddEven {
             // The mean residual of the group is in both expected values and cancels.
             before.or_else(after).map_or(f64::NAN, |j| judged.expected[i] + (segment.y[j] - judged.expected[j]))
         };
-        outliers.iter().map(replaced).collect()
+        pieces::collect(outliers.len(), &|| stop.check(), replaced)
     }
 }
 
@@ -101,7 +110,7 @@ mod tests {
             ..Judged::default()
         };
         // 9 follows 5; 2 starts its group and 6 is an outlier too, so 10 stands in; 20 starts the second block.
-        let got = OddEven.own_repair(&segment, &settings, &judged, &[2, 6, 9, 20]);
+        let got = OddEven.own_repair(&segment, &settings, &judged.part(0..40), &[2, 6, 9, 20], &Stop::never()).unwrap();
         let from = |i: usize, j: usize| 100.0 * i as f64 + y[j] - 100.0 * j as f64;
         assert_eq!(got, [from(2, 10), from(6, 10), from(9, 5), from(20, 24)]);
     }

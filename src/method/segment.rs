@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::noise;
 use crate::math::movement;
+use crate::stop::{Stop, Stopped};
 use crate::track::Series;
 
 /// What a method sees: the present samples of one segment, never empty.
@@ -66,9 +67,11 @@ impl<'a> Segment<'a> {
     }
 
     /// What counts as a scale of zero here: `8 * 2^-52 * max|y|`.
-    #[must_use]
-    pub fn zero(&self) -> f64 {
-        zero_scale(self.y)
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for it any more.
+    pub fn zero(&self, stop: &Stop) -> Result<f64, Stopped> {
+        zero_scale_of_many(self.y, stop)
     }
 
     /// A scale measured in this segment: taken as 0 when it is at most `zero`, and then at least the floor.
@@ -83,4 +86,12 @@ impl<'a> Segment<'a> {
 #[must_use]
 pub fn zero_scale(y: &[f64]) -> f64 {
     8.0 * f64::EPSILON * movement::largest(y)
+}
+
+/// [`zero_scale`] of many values.
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for it any more.
+pub fn zero_scale_of_many(y: &[f64], stop: &Stop) -> Result<f64, Stopped> {
+    Ok(8.0 * f64::EPSILON * movement::largest_of_many(y, &|| stop.check())?)
 }

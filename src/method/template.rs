@@ -4,6 +4,7 @@ use super::window::{self, Limits, Spread};
 use super::{About, Judged, Method, Own, Segment, Verdict, reaches, shared};
 use crate::math::line::LineSums;
 use crate::math::moments::Moments;
+use crate::math::pieces;
 use crate::math::sliding::{Sliding, Summary};
 use crate::math::sorted_window::SortedWindow;
 use crate::param::{Param, Settings};
@@ -39,22 +40,23 @@ impl Method for Template {
         if n < 3 {
             return Ok(window::too_short(n, window::has_feedback(settings)));
         }
-        let mut lines = Lines::new(segment, settings);
+        let check = || stop.check();
+        let mut lines = Lines::new(segment, settings, stop)?;
         // What is said on the data as given: residual and scale. With feedback, only what lies within reach of a
         // replaced sample differs from it.
-        let mut residual = vec![f64::NAN; n];
+        let mut residual = vec![0.0; n];
         window::sweep(&mut residual, stop, State::default, |state, i| lines.residual(state, i))?;
         let mut scale = vec![0.0; n];
         window::sweep(&mut scale, stop, State::default, |state, i| lines.scale(state, &residual, i))?;
         let pooled = settings.word(shared::NOISE_FLOOR.key) == "pooled";
-        let limits = Limits::new(pooled.then_some(&scale[2..]), segment);
+        let limits = Limits::new(pooled.then_some(&scale[2..]), segment, stop)?;
         let k = settings.real(shared::K.key);
         if window::has_feedback(settings) {
             return lines.feed_back(&mut residual, &scale, &limits, k, stop);
         }
-        let expected = residual.iter().zip(segment.y).map(|(r, y)| y - r).collect();
-        scale.iter_mut().for_each(|s| *s = limits.bound(*s));
-        let mut judged = Judged::gated(segment.y, expected, scale, k);
+        let expected = pieces::collect(n, &check, |i| segment.y[i] - residual[i])?;
+        pieces::over(&mut scale, &check, |_, scale| scale.iter_mut().for_each(|s| *s = limits.bound(*s)))?;
+        let mut judged = Judged::gated(segment.y, expected, scale, k, stop)?;
         judged.scale[..2].fill(f64::NAN);
         judged.tolerance[..2].fill(f64::NAN);
         Ok(judged)
@@ -88,11 +90,12 @@ struct State {
 }
 
 impl Lines {
-    fn new(segment: &Segment<'_>, settings: &Settings) -> Self {
+    fn new(segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Self, Stopped> {
         let level = window::level(segment.y);
-        let points = segment.t.iter().zip(segment.y).map(|(t, y)| [t - segment.t[0], y - level]).collect();
+        let point = |i: usize| [segment.t[i] - segment.t[0], segment.y[i] - level];
+        let points = pieces::collect(segment.len(), &|| stop.check(), point)?;
         let width = settings.whole(shared::WINDOW.key);
-        Self { points, level, width, spread: window::spread(settings) }
+        Ok(Self { points, level, width, spread: window::spread(settings) })
     }
 
     /// First of the last `width` samples up to `i`, none before `least`.
@@ -144,7 +147,7 @@ impl Lines {
         stop: &Stop,
     ) -> Result<Judged, Stopped> {
         let n = self.points.len();
-        let mut judged = Judged::unchecked(n);
+        let mut judged = Judged::unchecked_many(n, stop)?;
         let mut state = State::default();
         // The last sample that was replaced, and the last residual that differs from that on the data as given.
         let (mut replaced, mut changed) = (None, None);

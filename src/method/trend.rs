@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use rayon::prelude::*;
 
 use super::{Judged, Segment, Verdict, shared};
+use crate::math::pieces::{self, Check, PIECE};
 use crate::math::polyfit::Polynomial;
 use crate::param::Settings;
 use crate::stop::{Stop, Stopped};
@@ -94,7 +95,7 @@ pub(super) fn judge(
     let max_passes = settings.whole(shared::MAX_PASSES.key);
     let refit = order > 0 && settings.switch(shared::REFIT.key);
     let rule = Rule { order, refit, max_passes, block: settings.whole(shared::BLOCK.key), noise: OnceLock::new() };
-    let zero = segment.zero();
+    let zero = segment.zero(stop)?;
     let parts: Vec<Judged> = blocks(segment.len(), rule.block)
         .into_par_iter()
         .map(|block| {
@@ -102,8 +103,9 @@ pub(super) fn judge(
             judge_block(criterion, segment, block, zero, &rule, stop)
         })
         .collect::<Result<_, _>>()?;
-    let mut whole = Judged::default();
-    parts.into_iter().for_each(|part| whole.append(part));
+    let mut parts = parts.into_iter();
+    let mut whole = parts.next().unwrap_or_default();
+    parts.try_for_each(|part| whole.append(part, stop))?;
     Ok(whole)
 }
 
@@ -135,80 +137,120 @@ fn judge_block(
     if n < fewest {
         return Ok(Judged::unchecked(n));
     }
-    let mut position: Vec<usize> = (0..n).collect();
+    let check = || stop.check();
+    let mut position: Vec<usize> = pieces::collect(n, &check, |i| i)?;
     let (mut ts, mut ys) = (Cow::Borrowed(t), Cow::Borrowed(y));
-    let mut fit = fit(t, y, rule.order, stop)?;
+    let mut fit = Polynomial::fit_long(t, y, rule.order, &check)?;
     let mut residual = vec![0.0; n];
-    fit.residuals_long(&ts, &ys, &mut residual);
+    fit.residuals_long(&ts, &ys, &mut residual, &check)?;
     let mut flagged = vec![false; n];
     let mut limits = vec![None; criterion.groups()];
     let mut passes = 0;
     loop {
         let survivors = Survivors { residual: &residual, position: &position, segment, zero };
-        let mut pass = criterion.pass(&survivors, stop)?;
+        let pass = criterion.pass(&survivors, stop)?;
         limits.iter_mut().zip(pass.groups).for_each(|(limit, new)| *limit = new.or(*limit));
         passes += 1;
         pass.flagged.iter().for_each(|&i| flagged[position[i]] = true);
-        let nothing_new = pass.flagged.is_empty();
-        if nothing_new || passes == rule.max_passes || position.len() - pass.flagged.len() < fewest {
+        let found = pass.flagged.len();
+        if found == 0 || passes == rule.max_passes || position.len() - found < fewest {
             break;
         }
-        stop.check()?;
-        pass.flagged.sort_unstable();
-        let out = pass.flagged.as_slice();
-        rayon::join(|| remove(&mut position, out), || remove(ts.to_mut(), out));
-        stop.check()?;
-        remove(ys.to_mut(), out);
+        let out = |piece: Range<usize>| piece.filter(|&i| flagged[position[i]]).collect::<Vec<usize>>();
+        let out = pieces::map(position.len(), &check, out)?.concat();
+        remove(&mut position, &out, &check)?;
+        remove_from_slice(&mut ts, &out, &check)?;
+        remove_from_slice(&mut ys, &out, &check)?;
         residual.truncate(position.len());
         if rule.refit {
-            fit = self::fit(&ts, &ys, rule.order, stop)?;
+            fit = Polynomial::fit_long(&ts, &ys, rule.order, &check)?;
         }
-        stop.check()?;
-        fit.residuals_long(&ts, &ys, &mut residual);
+        fit.residuals_long(&ts, &ys, &mut residual, &check)?;
     }
-    let mut judged = verdicts(&fit, t, &flagged, &limits);
+    let mut judged = verdicts(&fit, t, &flagged, &limits, stop)?;
     // Full blocks are warned of by their settings.
     if rule.block == 0 || n < rule.block {
         judged.warnings.extend(warning::of_reach(criterion, t, &fit));
     }
-    judged.warnings.extend(warning::of_trend(segment, &block, &limits, &rule.noise));
+    judged.warnings.extend(warning::of_trend(segment, &block, &limits, &rule.noise, stop)?);
     Ok(judged)
 }
 
-fn fit(t: &[f64], y: &[f64], order: usize, stop: &Stop) -> Result<Polynomial, Stopped> {
-    Polynomial::fit_long(t, y, order, || stop.check())
+/// The stretches of `0 .. n` without the entries at `out` (ascending), none longer than a piece.
+fn stretches(n: usize, out: &[usize]) -> impl Iterator<Item = Range<usize>> + '_ {
+    let begins = std::iter::once(0).chain(out.iter().map(|at| at + 1));
+    let whole = begins.zip(out.iter().copied().chain(std::iter::once(n)));
+    whole.flat_map(|(begin, end)| (begin..end).step_by(PIECE).map(move |at| at..end.min(at + PIECE)))
 }
 
-/// Takes the entries at `out` (ascending) out of a list: the stretches between them move together.
-fn remove<T: Copy>(list: &mut Vec<T>, out: &[usize]) {
-    let Some(&first) = out.first() else { return };
-    let mut end = first;
-    for (k, &at) in out.iter().enumerate() {
-        let next = out.get(k + 1).copied().unwrap_or(list.len());
-        list.copy_within(at + 1..next, end);
-        end += next - at - 1;
+/// Takes the entries at `out` (ascending) out of a list.
+fn remove<T: Copy, E>(list: &mut Vec<T>, out: &[usize], check: &impl Check<E>) -> Result<(), E> {
+    let (mut end, mut moved) = (0, 0);
+    for stretch in stretches(list.len(), out) {
+        if moved >= PIECE {
+            check()?;
+            moved = 0;
+        }
+        moved += stretch.len();
+        let begin = end;
+        end += stretch.len();
+        if begin < stretch.start {
+            list.copy_within(stretch, begin);
+        }
     }
     list.truncate(end);
+    Ok(())
+}
+
+/// [`remove`] from values that are perhaps not copied yet.
+fn remove_from_slice<E>(list: &mut Cow<'_, [f64]>, out: &[usize], check: &impl Check<E>) -> Result<(), E> {
+    match list {
+        Cow::Owned(list) => remove(list, out, check),
+        Cow::Borrowed(values) => {
+            let mut kept = Vec::with_capacity(values.len() - out.len());
+            let mut next_look = 0;
+            for stretch in stretches(values.len(), out) {
+                if kept.len() >= next_look {
+                    check()?;
+                    next_look = kept.len() + PIECE;
+                }
+                kept.extend_from_slice(&values[stretch]);
+            }
+            *list = Cow::Owned(kept);
+            Ok(())
+        }
+    }
 }
 
 /// Expected value: the trend plus the mean of the last pass. Tolerance: the last limit applied.
-fn verdicts(fit: &Polynomial, t: &[f64], flagged: &[bool], limits: &[Option<Limit>]) -> Judged {
+fn verdicts(
+    fit: &Polynomial,
+    t: &[f64],
+    flagged: &[bool],
+    limits: &[Option<Limit>],
+    stop: &Stop,
+) -> Result<Judged, Stopped> {
     let of = |i: usize| limits[i % limits.len()];
-    let all = || (0..t.len()).into_par_iter().with_min_len(8192);
+    let check = || stop.check();
     let mut expected = vec![0.0; t.len()];
-    fit.values_long(t, &mut expected);
-    expected.par_iter_mut().with_min_len(8192).enumerate().for_each(|(i, expected)| {
-        *expected = of(i).map_or(f64::NAN, |limit| *expected + limit.mean);
-    });
-    let tolerance = all().map(|i| of(i).map_or(f64::NAN, |limit| limit.tolerance)).collect();
-    let verdict = all()
-        .map(|i| match of(i) {
-            _ if flagged[i] => Verdict::Outlier,
-            Some(_) => Verdict::Normal,
-            None => Verdict::Unchecked,
-        })
-        .collect();
-    Judged { verdict, expected, tolerance, ..Judged::default() }
+    fit.values_long(t, &mut expected, &check)?;
+    pieces::over(&mut expected, &check, |first, expected| {
+        for (i, expected) in (first..).zip(expected) {
+            *expected = of(i).map_or(f64::NAN, |limit| *expected + limit.mean);
+        }
+    })?;
+    let tolerance = pieces::collect(t.len(), &check, |i| of(i).map_or(f64::NAN, |limit| limit.tolerance))?;
+    let mut verdict = vec![Verdict::Normal; t.len()];
+    pieces::over(&mut verdict, &check, |first, verdict| {
+        for (i, verdict) in (first..).zip(verdict) {
+            *verdict = match of(i) {
+                _ if flagged[i] => Verdict::Outlier,
+                Some(_) => Verdict::Normal,
+                None => Verdict::Unchecked,
+            };
+        }
+    })?;
+    Ok(Judged { verdict, expected, tolerance, ..Judged::default() })
 }
 
 #[cfg(test)]

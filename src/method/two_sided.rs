@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::{About, Direction, Directions, Judged, Method, Own, Segment, TIE, Verdict, Way, shared};
+use super::{About, Direction, Directions, Judged, Method, Own, Part, Segment, TIE, Verdict, Way, shared};
+use crate::math::pieces::{self, PIECE};
 use crate::param::{Choice, Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
@@ -151,7 +152,7 @@ impl Method for TwoSided {
             Choice::Word(_) => settings.real(shared::K.key) * segment.sigma,
         };
         if delta <= 0.0 {
-            return Ok(Judged::unchecked(segment.len()));
+            return Judged::unchecked_many(segment.len(), stop);
         }
         let max_run = settings.whole(shared::MAX_RUN.key);
         let one = |way| {
@@ -169,8 +170,15 @@ impl Method for TwoSided {
         together(segment, delta, forward, backward, stop)
     }
 
-    fn own_repair(&self, segment: &Segment<'_>, settings: &Settings, judged: &Judged, outliers: &[usize]) -> Vec<f64> {
-        repair::repair(segment, settings, judged, outliers)
+    fn own_repair(
+        &self,
+        segment: &Segment<'_>,
+        settings: &Settings,
+        judged: &Part<'_>,
+        outliers: &[usize],
+        stop: &Stop,
+    ) -> Result<Vec<f64>, Stopped> {
+        repair::repair(segment, settings, judged, outliers, stop)
     }
 
     fn notes(&self, settings: &Settings) -> Vec<String> {
@@ -204,25 +212,32 @@ fn together(
     backward: Option<OneWay>,
     stop: &Stop,
 ) -> Result<Judged, Stopped> {
-    let all = || (0..segment.len()).into_par_iter().with_min_len(8192);
-    let expected: Vec<f64> = match (&forward, &backward) {
-        (Some(f), Some(b)) => all().map(|i| nearer(segment.y[i], f.expected[i], b.expected[i], TIE * delta)).collect(),
-        (one, other) => one.as_ref().or(other.as_ref()).map_or_else(Vec::new, |one| one.expected.clone()),
+    let (n, check) = (segment.len(), || stop.check());
+    let expected = match (&forward, &backward) {
+        (Some(f), Some(b)) => {
+            pieces::collect(n, &check, |i| nearer(segment.y[i], f.expected[i], b.expected[i], TIE * delta))?
+        }
+        (Some(one), None) | (None, Some(one)) => pieces::collect(n, &check, |i| one.expected[i])?,
+        (None, None) => Vec::new(),
     };
-    stop.check()?;
     let said = |one: &Option<OneWay>, i: usize| one.as_ref().map(|one| one.said[i]);
     let code = |one: &Option<OneWay>, i: usize| one.as_ref().map_or(NO_CANDIDATE, |one| one.code[i]);
-    let (mut verdicts, mut directions) = (Vec::new(), Vec::new());
-    all()
-        .map(|i| (said(&forward, i), said(&backward, i)))
-        .map(|(f, b)| (verdict(f, b), Directions { forward: f, backward: b }))
-        .unzip_into_vecs(&mut verdicts, &mut directions);
-    stop.check()?;
+    let both = |i: usize| Directions { forward: said(&forward, i), backward: said(&backward, i) };
+    let (mut verdicts, mut directions) = (vec![Verdict::Unchecked; n], vec![both(0); n]);
+    let pieces = verdicts.par_chunks_mut(PIECE).zip(directions.par_chunks_mut(PIECE)).enumerate();
+    pieces.try_for_each(|(piece, (verdicts, directions))| {
+        check()?;
+        for (i, (one, directions)) in (piece * PIECE..).zip(verdicts.iter_mut().zip(directions)) {
+            *directions = both(i);
+            *one = verdict(directions.forward, directions.backward);
+        }
+        Ok(())
+    })?;
     let mut judged = Judged {
         verdict: verdicts,
         directions,
-        repair_code: all().map(|i| [code(&forward, i), code(&backward, i)]).collect(),
-        tolerance: all().map(|i| if expected[i].is_nan() { f64::NAN } else { delta }).collect(),
+        repair_code: pieces::collect(n, &check, |i| [code(&forward, i), code(&backward, i)])?,
+        tolerance: pieces::collect(n, &check, |i| if expected[i].is_nan() { f64::NAN } else { delta })?,
         expected,
         ..Judged::default()
     };

@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::{Judged, Segment, Verdict, reaches, shared};
+use super::{Judged, Part, Segment, Verdict, reaches, shared};
 use crate::math::order::median_of_many;
+use crate::math::pieces;
 use crate::param::Settings;
 use crate::stop::{Stop, Stopped};
 
@@ -87,9 +88,13 @@ pub(super) fn gate(settings: &Settings) -> Option<&'static str> {
 }
 
 /// What the `own` repair of a method with feedback puts in: the last replacement, or the expected value.
-pub(super) fn replacement_or_expected(judged: &Judged, outliers: &[usize]) -> Vec<f64> {
+pub(super) fn replacement_or_expected(judged: &Part<'_>, outliers: &[usize], stop: &Stop) -> Result<Vec<f64>, Stopped> {
     let at = |values: &[f64], i: usize| values.get(i).copied().filter(|v| !v.is_nan());
-    outliers.iter().map(|&i| at(&judged.own, i).or(at(&judged.expected, i)).unwrap_or(f64::NAN)).collect()
+    let value = |n: usize| {
+        let i = outliers[n];
+        at(judged.own, i).or(at(judged.expected, i)).unwrap_or(f64::NAN)
+    };
+    pieces::collect(outliers.len(), &|| stop.check(), value)
 }
 
 /// Fills `out` by `each(state, index)`, piece by piece in parallel, each piece with a new state.
@@ -128,21 +133,23 @@ pub(super) fn judge(rule: &Rule, segment: &Segment<'_>, stop: &Stop) -> Result<J
     let slope = if rule.detrend { baseline::slope(segment, rule.width, stop)? } else { None };
     let base = |c: usize| slope.as_ref().map_or(0.0, |slope| slope[c]);
     let windows = Windows::new(n, rule.width, rule.edge);
-    let samples = (0..n).into_par_iter().with_min_len(CHUNK).map(|c| segment.y[c] - level - base(c));
-    let mut x = windows.padded(samples.collect(), -level);
+    let check = || stop.check();
+    let samples = pieces::collect(n, &check, |c| segment.y[c] - level - base(c))?;
+    let mut x = windows.padded(samples, -level, stop)?;
     let mut figures = figures(rule, &x, &windows, stop)?;
-    let limits = Limits::new(rule.pooled.then_some(&figures.scale[..]), segment);
-    stop.check()?;
+    let limits = Limits::new(rule.pooled.then_some(&figures.scale[..]), segment, stop)?;
     if rule.feedback {
         return feed_back(rule, &windows, &mut x, |c| base(c) + level, &figures, &limits, stop);
     }
-    let both = figures.expected.par_iter_mut().zip(&mut figures.scale).with_min_len(CHUNK).enumerate();
-    both.for_each(|(c, (expected, scale))| {
-        *expected = *expected + base(c) + level;
-        *scale = limits.bound(*scale);
-    });
-    stop.check()?;
-    Ok(Judged::gated(segment.y, figures.expected, figures.scale, rule.k))
+    drop(x);
+    pieces::over(&mut figures.expected, &check, |first, expected| {
+        for (c, expected) in (first..).zip(expected) {
+            *expected = *expected + base(c) + level;
+        }
+    })?;
+    drop(slope);
+    pieces::over(&mut figures.scale, &check, |_, scale| scale.iter_mut().for_each(|s| *s = limits.bound(*s)))?;
+    Judged::gated(segment.y, figures.expected, figures.scale, rule.k, stop)
 }
 
 /// The lower bounds on a window's scale.
@@ -155,9 +162,10 @@ pub(super) struct Limits<'a> {
 
 impl<'a> Limits<'a> {
     /// With the pooled floor, the median of the scales of all windows on the data as given, when they are there.
-    pub(super) fn new(scales: Option<&[f64]>, segment: &Segment<'a>) -> Self {
-        let pooled = scales.map_or(0.0, |scales| median_of_many(scales.len(), |i| scales[i]).max(0.0));
-        Self { segment: *segment, zero: segment.zero(), pooled }
+    pub(super) fn new(scales: Option<&[f64]>, segment: &Segment<'a>, stop: &Stop) -> Result<Self, Stopped> {
+        let median = |scales: &[f64]| median_of_many(scales.len(), |i| scales[i], &|| stop.check());
+        let pooled = scales.map(median).transpose()?.map_or(0.0, |median| median.max(0.0));
+        Ok(Self { segment: *segment, zero: segment.zero(stop)?, pooled })
     }
 
     /// The scale to judge by, for a measured one.

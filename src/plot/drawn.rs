@@ -5,10 +5,12 @@ use std::sync::Arc;
 
 use super::pyramid::BLOCK;
 use super::{Flag, FlagState, Flags, Histogram, Pyramid, Span};
+use crate::math::pieces::PIECE;
 use crate::method::Verdict;
 use crate::param::Value;
 use crate::review::Ruling;
 use crate::session::{Mark, Outcome};
+use crate::stop::{Stop, Stopped};
 use crate::track::Series;
 
 /// An outcome with all that a frame needs of it.
@@ -51,15 +53,12 @@ struct Samples {
 }
 
 impl Drawn {
-    /// Arranges `outcome` of `series`.
-    #[must_use]
-    pub fn new(outcome: Outcome, series: &Series<'_>) -> Self {
-        Self::after(outcome, series, None)
-    }
-
-    /// The same, after an earlier result of the same series: what did not change is taken from there.
-    #[must_use]
-    pub fn after(outcome: Outcome, series: &Series<'_>, previous: Option<&Self>) -> Self {
+    /// Arranges `outcome` of `series`. After an earlier result of the same series what did not change is taken from
+    /// there.
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for it any more.
+    pub fn new(outcome: Outcome, series: &Series<'_>, previous: Option<&Self>, stop: &Stop) -> Result<Self, Stopped> {
         let previous = previous.filter(|p| p.hidden.len() == series.len());
         let mut drawn = Self {
             threshold: multiplier(&outcome).unwrap_or(1.0),
@@ -83,71 +82,91 @@ impl Drawn {
         let same_residuals = scored.filter(|p| (in_scales(p) && in_scales(&drawn)) || k(p) == k(&drawn));
         let of = &drawn;
         let ((samples, flags), (ratios, (expected, band))) = rayon::join(
-            || (of.samples(series, previous), Flags::new(&of.flags(series))),
+            || (of.samples(series, previous, stop), Flags::new_unless(&of.flags(series), stop)),
             || {
-                let ratios = same_residuals.map_or_else(|| Arc::new(of.ratios(series)), |p| Arc::clone(&p.ratios));
-                let expected = scored.map_or_else(|| Arc::new(of.expectation(series)), |p| Arc::clone(&p.expected));
-                (ratios, (expected, same_band.map_or_else(|| Arc::new(of.band()), |p| Arc::clone(&p.band))))
+                // What is there already, or else is made.
+                let or = |there: Option<&Arc<Pyramid>>, make: &dyn Fn() -> Result<Pyramid, Stopped>| {
+                    there.map_or_else(|| make().map(Arc::new), |there| Ok(Arc::clone(there)))
+                };
+                let ratios = or(same_residuals.map(|p| &p.ratios), &|| of.ratios(series, stop));
+                let expected = or(scored.map(|p| &p.expected), &|| of.expectation(series, stop));
+                (ratios, (expected, or(same_band.map(|p| &p.band), &|| of.band(stop))))
             },
         );
-        (drawn.ratios, drawn.expected, drawn.band, drawn.arranged) = (ratios, expected, band, flags);
-        let Samples { hidden, pyramids, changed } = samples;
+        (drawn.ratios, drawn.expected, drawn.band, drawn.arranged) = (ratios?, expected?, band?, flags?);
+        let Samples { hidden, pyramids, changed } = samples?;
         [drawn.kept, drawn.repaired, drawn.after] = pyramids;
         drawn.hidden = hidden;
-        drawn.histogram = drawn.counted(series, same_residuals, changed.as_deref());
-        drawn
+        drawn.histogram = drawn.counted(series, same_residuals, changed.as_deref(), stop)?;
+        Ok(drawn)
     }
 
     /// The histogram of the residuals; after an earlier result with the same ones, from there, with the samples of
     /// `changed` looked at again.
-    fn counted(&self, series: &Series<'_>, same: Option<&Self>, changed: Option<&[Range<usize>]>) -> Histogram {
+    fn counted(
+        &self,
+        series: &Series<'_>,
+        same: Option<&Self>,
+        changed: Option<&[Range<usize>]>,
+        stop: &Stop,
+    ) -> Result<Histogram, Stopped> {
         let top = residual_top(self.threshold);
         match (same, changed) {
             (Some(before), Some(changed)) if before.histogram.top().to_bits() == top.to_bits() => {
                 let inside = |block: &Range<usize>| block.start..block.end.min(self.hidden.len());
                 let turned = changed.iter().flat_map(inside).filter(|&i| self.hidden[i] != before.hidden[i]);
-                before.histogram.turned(turned.map(|i| (self.residual(series, i), self.hidden[i])))
+                Ok(before.histogram.turned(turned.map(|i| (self.residual(series, i), self.hidden[i]))))
             }
-            _ => Histogram::new(top, |i| self.residual(series, i), &self.hidden),
+            _ => Histogram::new(top, |i| self.residual(series, i), &self.hidden, stop),
         }
     }
 
-    fn ratios(&self, series: &Series<'_>) -> Pyramid {
-        Pyramid::build_spans(series.len(), |i| self.residual(series, i).map_or(Span::EMPTY, Span::at))
+    fn ratios(&self, series: &Series<'_>, stop: &Stop) -> Result<Pyramid, Stopped> {
+        let span = |i: usize| self.residual(series, i).map_or(Span::EMPTY, Span::at);
+        Pyramid::build_spans_unless(series.len(), span, stop)
     }
 
-    fn expectation(&self, series: &Series<'_>) -> Pyramid {
-        Pyramid::build_spans(series.len(), |i| self.expected_span(i))
+    fn expectation(&self, series: &Series<'_>, stop: &Stop) -> Result<Pyramid, Stopped> {
+        Pyramid::build_spans_unless(series.len(), |i| self.expected_span(i), stop)
     }
 
     /// The pyramid of the tolerance band, which every step of a multiplier moves everywhere.
-    fn band(&self) -> Pyramid {
+    fn band(&self, stop: &Stop) -> Result<Pyramid, Stopped> {
         let judged = &self.outcome.detection.judged;
         let Some((k, scale)) = judged.scales() else {
-            return Pyramid::build_spans(judged.expected().len(), |i| self.band_span(i));
+            return Pyramid::build_spans_unless(judged.expected().len(), |i| self.band_span(i), stop);
         };
         let expected = judged.expected();
-        Pyramid::build_blocks(expected.len(), |block| {
+        let over = |block: Range<usize>| {
             let both = expected[block.clone()].iter().zip(&scale[block]);
             both.fold(Span::EMPTY, |all, (p, s)| all.union(band(*p, k * s)))
-        })
+        };
+        Pyramid::build_blocks(expected.len(), over, stop)
     }
 
     /// Which samples are outliers, and what depends on that.
-    fn samples(&self, series: &Series<'_>, previous: Option<&Self>) -> Samples {
+    fn samples(&self, series: &Series<'_>, previous: Option<&Self>, stop: &Stop) -> Result<Samples, Stopped> {
         let changed = previous.and_then(|p| Some((p, p.changed_to(&self.outcome)?)));
         let mut hidden = changed.as_ref().map_or_else(|| vec![false; series.len()], |(p, _)| p.hidden.clone());
+        let mut hide = |outliers: &[usize], so: bool| {
+            outliers.chunks(PIECE).try_for_each(|piece| {
+                stop.check()?;
+                piece.iter().for_each(|&i| hidden[i] = so);
+                Ok(())
+            })
+        };
         if let Some((previous, _)) = &changed {
-            previous.outcome.outliers.iter().for_each(|&i| hidden[i] = false);
+            hide(&previous.outcome.outliers, false)?;
         }
-        self.outcome.outliers.iter().for_each(|&i| hidden[i] = true);
+        hide(&self.outcome.outliers, true)?;
         let fix = |i: usize| if hidden[i] { span(self.outcome.fix(i)) } else { Span::EMPTY };
         let kept = |i: usize| if hidden[i] { Span::EMPTY } else { span(series.y.get(i).copied()) };
         let after = |i: usize| if hidden[i] { span(self.outcome.fix(i)) } else { span(series.y.get(i).copied()) };
         let pyramids = match &changed {
             Some((previous, blocks)) => {
                 let mut pyramids = [&previous.kept, &previous.repaired, &previous.after].map(Arc::clone);
-                for block in blocks {
+                for (n, block) in blocks.iter().enumerate() {
+                    stop.check_at(64 * n)?;
                     Arc::make_mut(&mut pyramids[0]).update_spans(kept, block.clone());
                     Arc::make_mut(&mut pyramids[1]).update_spans(fix, block.clone());
                     Arc::make_mut(&mut pyramids[2]).update_spans(after, block.clone());
@@ -157,13 +176,16 @@ impl Drawn {
             None => {
                 let n = series.len();
                 let (kept, (repaired, after)) = rayon::join(
-                    || Pyramid::build_spans(n, kept),
-                    || rayon::join(|| Pyramid::build_spans(n, fix), || Pyramid::build_spans(n, after)),
+                    || Pyramid::build_spans_unless(n, kept, stop),
+                    || {
+                        let repaired = || Pyramid::build_spans_unless(n, fix, stop);
+                        rayon::join(repaired, || Pyramid::build_spans_unless(n, after, stop))
+                    },
                 );
-                [kept, repaired, after].map(Arc::new)
+                [kept?, repaired?, after?].map(Arc::new)
             }
         };
-        Samples { changed: changed.map(|(_, blocks)| blocks), hidden, pyramids }
+        Ok(Samples { changed: changed.map(|(_, blocks)| blocks), hidden, pyramids })
     }
 
     /// The blocks in which an outlier, or what takes its place, is another than in `outcome`; none when there are so

@@ -3,6 +3,8 @@
 use std::ops::Range;
 
 use super::pyramid::{BLOCK, Pyramid, Span};
+use crate::math::pieces::{self, PIECE};
+use crate::stop::{Stop, Stopped};
 
 /// What is known about a flagged sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -66,22 +68,38 @@ impl Flags {
     /// Arranges `flags`; they should be in order of position, and are brought into it when they are not.
     #[must_use]
     pub fn new(flags: &[Flag]) -> Self {
+        // Nobody stops it: they are always there.
+        Self::new_unless(flags, &Stop::never()).unwrap_or_default()
+    }
+
+    /// [`Flags::new`] that may be abandoned.
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for it any more.
+    pub fn new_unless(flags: &[Flag], stop: &Stop) -> Result<Self, Stopped> {
         if !flags.is_sorted_by_key(|flag| flag.position) {
             let mut sorted = flags.to_vec();
             sorted.sort_by_key(|flag| flag.position);
-            return Self::new(&sorted);
+            return Self::new_unless(&sorted, stop);
         }
         let mut lists: [FlagList; 5] = Default::default();
-        for flag in flags {
-            let list = &mut lists[flag.state.index()];
-            list.positions.push(flag.position);
-            list.y.push(flag.y);
+        for piece in flags.chunks(PIECE) {
+            stop.check()?;
+            for flag in piece {
+                let list = &mut lists[flag.state.index()];
+                list.positions.push(flag.position);
+                list.y.push(flag.y);
+            }
         }
         for list in &mut lists {
-            list.pyramid = Pyramid::build(&list.y, |_| false);
-            list.inner = list.y.chunks(BLOCK).map(inner).collect();
+            list.pyramid = Pyramid::build_spans_unless(list.y.len(), |i| Span::at(list.y[i]), stop)?;
+            let inner = |blocks: Range<usize>| {
+                let y = &list.y[blocks.start * BLOCK..list.y.len().min(blocks.end * BLOCK)];
+                y.chunks(BLOCK).map(inner).collect::<Vec<_>>()
+            };
+            list.inner = pieces::map(list.y.len().div_ceil(BLOCK), &|| stop.check(), inner)?.concat();
         }
-        Self { lists }
+        Ok(Self { lists })
     }
 
     /// How many flags there are of each state, in the order of [`FlagState::ALL`].

@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::math::pieces::PIECE;
+use crate::stop::{Stop, Stopped};
+
 /// Bins between the edges: so many that columns made of them differ by a percent or two in width.
 const BINS: usize = 8192;
 
@@ -61,12 +64,10 @@ impl Part {
         Self { bins: vec![Tally::default(); BINS], others: [Tally::default(); 3] }
     }
 
-    fn of(top: f64, range: Range<usize>, residual: &impl Fn(usize) -> Option<f64>, flagged: &[bool]) -> Self {
-        let mut part = Self::new();
+    fn count(&mut self, top: f64, range: Range<usize>, residual: &impl Fn(usize) -> Option<f64>, flagged: &[bool]) {
         for i in range {
-            part.place(top, residual(i)).add(flagged[i]);
+            self.place(top, residual(i)).add(flagged[i]);
         }
-        part
     }
 
     /// Where a residual is counted.
@@ -96,11 +97,27 @@ fn bin(top: f64, residual: f64) -> usize {
 
 impl Histogram {
     /// Counts the residuals between `-top` and `top` (positive) of as many samples as `flagged` has entries.
-    #[must_use]
-    pub fn new(top: f64, residual: impl Fn(usize) -> Option<f64> + Sync, flagged: &[bool]) -> Self {
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for it any more.
+    pub fn new(
+        top: f64,
+        residual: impl Fn(usize) -> Option<f64> + Sync,
+        flagged: &[bool],
+        stop: &Stop,
+    ) -> Result<Self, Stopped> {
         let starts = (0..flagged.len()).into_par_iter().step_by(CHUNK);
-        let part = |start: usize| Part::of(top, start..(start + CHUNK).min(flagged.len()), &residual, flagged);
-        Self::summed(top, &starts.map(part).reduce(Part::new, |a, b| a.with(&b)))
+        let part = |start: usize| {
+            let mut part = Part::new();
+            let end = (start + CHUNK).min(flagged.len());
+            for begin in (start..end).step_by(PIECE) {
+                stop.check()?;
+                part.count(top, begin..end.min(begin + PIECE), &residual, flagged);
+            }
+            Ok(part)
+        };
+        let all = starts.map(part).try_reduce(Part::new, |a, b| Ok(a.with(&b)))?;
+        Ok(Self::summed(top, &all))
     }
 
     /// The same residuals, of which some have become those of outliers, or (false) are no longer. Each is given with
@@ -171,7 +188,7 @@ mod tests {
             samples in prop::collection::vec((residual(), prop::bool::weighted(0.2)), 0..400), width in 1_u16..400,
         ) {
             let flagged: Vec<bool> = samples.iter().map(|s| s.1).collect();
-            let histogram = Histogram::new(10.0, |i| samples[i].0, &flagged);
+            let histogram = Histogram::new(10.0, |i| samples[i].0, &flagged, &Stop::never()).unwrap();
             let columns = histogram.columns(width);
             let mut expected = vec![Tally::default(); usize::from(width)];
             let (mut beyond, mut without) = (Tally::default(), Tally::default());
@@ -203,7 +220,9 @@ mod tests {
     fn parts_of_a_long_record_add_up() {
         let n = 2 * CHUNK + 5;
         let flagged = vec![true; n];
-        let histogram = Histogram::new(1.0, |i| Some(if i.is_multiple_of(2) { 0.5 } else { -2.0 }), &flagged);
+        let histogram =
+            Histogram::new(1.0, |i| Some(if i.is_multiple_of(2) { 0.5 } else { -2.0 }), &flagged, &Stop::never())
+                .unwrap();
         let half = (n as u32).div_ceil(2);
         assert_eq!(histogram.columns(2), [Tally::default(), Tally { all: half, flagged: half }]);
         assert_eq!((histogram.below.all, histogram.above.all), (n as u32 - half, 0));

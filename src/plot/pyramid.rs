@@ -7,6 +7,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::stop::{Stop, Stopped};
+
 /// Samples in a block of the lowest level.
 pub(crate) const BLOCK: usize = 64;
 /// Nodes of one level under a node of the next.
@@ -91,18 +93,37 @@ impl Pyramid {
     /// The pyramid over `len` spans; [`Span::EMPTY`] where there is no value.
     #[must_use]
     pub fn build_spans(len: usize, span: impl Fn(usize) -> Span + Sync) -> Self {
-        Self::build_blocks(len, |block| block.fold(Span::EMPTY, |all, i| all.union(span(i))))
+        // Nobody stops it: it is always there.
+        Self::build_spans_unless(len, span, &Stop::never()).unwrap_or_default()
+    }
+
+    /// [`Pyramid::build_spans`] that may be abandoned.
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for it any more.
+    pub fn build_spans_unless(len: usize, span: impl Fn(usize) -> Span + Sync, stop: &Stop) -> Result<Self, Stopped> {
+        Self::build_blocks(len, |block| block.fold(Span::EMPTY, |all, i| all.union(span(i))), stop)
     }
 
     /// The pyramid over `len` spans, of which `over_range` gives the union over a range.
-    pub(super) fn build_blocks(len: usize, over_range: impl Fn(Range<usize>) -> Span + Sync) -> Self {
-        /// Blocks that one piece of parallel work has at least.
-        const PIECE: usize = 512;
+    pub(super) fn build_blocks(
+        len: usize,
+        over_range: impl Fn(Range<usize>) -> Span + Sync,
+        stop: &Stop,
+    ) -> Result<Self, Stopped> {
+        /// Blocks in one piece of parallel work.
+        const PIECE: usize = 256;
         let mut pyramid = Self { len, levels: Vec::new() };
-        let block = |node: usize| over_range(node * BLOCK..len.min((node + 1) * BLOCK));
-        let blocks = (0..len.div_ceil(BLOCK)).into_par_iter().with_min_len(PIECE);
-        let mut nodes: Vec<Span> = blocks.map(block).collect();
+        let mut nodes = vec![Span::EMPTY; len.div_ceil(BLOCK)];
+        nodes.par_chunks_mut(PIECE).enumerate().try_for_each(|(piece, nodes)| {
+            stop.check()?;
+            for (node, span) in (piece * PIECE..).zip(nodes) {
+                *span = over_range(node * BLOCK..len.min((node + 1) * BLOCK));
+            }
+            Ok(())
+        })?;
         while !nodes.is_empty() {
+            stop.check()?;
             let next: Vec<Span> = nodes.chunks(FAN_OUT).map(over).collect();
             let at_top = nodes.len() <= FAN_OUT;
             pyramid.levels.push(nodes);
@@ -111,7 +132,7 @@ impl Pyramid {
             }
             nodes = next;
         }
-        pyramid
+        Ok(pyramid)
     }
 
     /// Rebuilds what depends on the positions of `range`.

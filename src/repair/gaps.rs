@@ -2,6 +2,7 @@
 
 use super::{Accepted, Damage, Way, chosen, fill_limit, linear};
 use crate::param::Settings;
+use crate::stop::{Stop, Stopped};
 
 /// A stretch of missing samples between two neighbouring present ones of the same segment.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,16 +16,23 @@ pub struct Gap {
 /// A value for each missing sample of each gap; none for a gap that is left open: one without accepted samples on
 /// both sides, or inside a run of outliers too long to be repaired. `own`, `expected` and `remove` have nothing to
 /// say about a sample that was never measured; the line is used for them.
-#[must_use]
-pub fn fill(damage: &Damage<'_>, gaps: &[Gap], settings: &Settings) -> Vec<Option<Vec<f64>>> {
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for the result any more.
+pub fn fill(
+    damage: &Damage<'_>,
+    gaps: &[Gap],
+    settings: &Settings,
+    stop: &Stop,
+) -> Result<Vec<Option<Vec<f64>>>, Stopped> {
     if gaps.is_empty() {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     let interpolate = match chosen(settings).way {
         Way::Interpolate(interpolate) => interpolate,
         Way::Own | Way::Remove | Way::Expected => linear::values,
     };
-    let accepted = Accepted::of(damage);
+    let accepted = Accepted::of(damage, stop)?;
     let limit = fill_limit(settings);
     let one = |gap: &Gap| {
         let outliers_before = damage.outliers.partition_point(|&i| i < gap.before);
@@ -34,7 +42,12 @@ pub fn fill(damage: &Damage<'_>, gaps: &[Gap], settings: &Settings) -> Vec<Optio
         let around = accepted.around(gap.before - outliers_before)?;
         interpolate(&around, &gap.at, settings).filter(|values| values.iter().all(|v| v.is_finite()))
     };
-    gaps.iter().map(one).collect()
+    let looked = |(n, gap): (usize, &Gap)| {
+        // A gap costs some microseconds.
+        stop.check_at(64 * n)?;
+        Ok(one(gap))
+    };
+    gaps.iter().enumerate().map(looked).collect()
 }
 
 /// How many outliers in a row touch the gap before position `at`, `split` of all outliers lying before it.
@@ -58,12 +71,12 @@ mod tests {
         let damage = Damage { t: &t, y: &y, outliers: &[3, 4], own: &nothing, expected: &nothing };
         let gaps = [Gap { before: 4, at: vec![4.0] }, Gap { before: 7, at: vec![7.5, 8.0] }];
         let mut settings = Settings::defaults(PARAMS);
-        assert_eq!(fill(&damage, &gaps, &settings), [Some(vec![8.0]), Some(vec![15.0, 16.0])]);
+        assert_eq!(fill(&damage, &gaps, &settings, &Stop::never()).unwrap(), [Some(vec![8.0]), Some(vec![15.0, 16.0])]);
         settings.set_text("repair", "max_fill", "2").unwrap();
-        assert_eq!(fill(&damage, &gaps, &settings), [Some(vec![8.0]), Some(vec![15.0, 16.0])]);
+        assert_eq!(fill(&damage, &gaps, &settings, &Stop::never()).unwrap(), [Some(vec![8.0]), Some(vec![15.0, 16.0])]);
         settings.set_text("repair", "max_fill", "1").unwrap();
-        assert_eq!(fill(&damage, &gaps, &settings), [None, Some(vec![15.0, 16.0])]);
+        assert_eq!(fill(&damage, &gaps, &settings, &Stop::never()).unwrap(), [None, Some(vec![15.0, 16.0])]);
         let damage = Damage { outliers: &[7], own: &nothing[..1], expected: &nothing[..1], ..damage };
-        assert_eq!(fill(&damage, &gaps[1..], &settings), [None]);
+        assert_eq!(fill(&damage, &gaps[1..], &settings, &Stop::never()).unwrap(), [None]);
     }
 }

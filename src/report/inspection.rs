@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::method::noise;
 use crate::method::shared::MAX_GAP;
 use crate::param::Value;
+use crate::stop::{Stop, Stopped};
 use crate::track::{Delimiter, Encoding, Fault, Faults, Series, Track, printable};
 
 /// The facts of a file.
@@ -212,7 +213,8 @@ fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts
     };
     let segments = series.segments(max_gap);
     let longest = segments.iter().enumerate().max_by_key(|(_, s)| s.len()).map(|(i, _)| i);
-    let of_longest = |all: Vec<f64>| longest.and_then(|i| all.get(i).copied()).filter(|s| s.is_finite());
+    let stop = Stop::never();
+    let of_longest = |all: Result<Vec<f64>, Stopped>| all.ok()?.get(longest?).copied().filter(|s| s.is_finite());
     let low = series.y.iter().copied().reduce(f64::min);
     ChannelFacts {
         name: channel.name.clone(),
@@ -223,8 +225,8 @@ fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts
         lost: (1..series.len()).map(|i| series.lost_before(i)).fold(0, usize::saturating_add),
         segments: segments.len(),
         range: low.zip(series.y.iter().copied().reduce(f64::max)),
-        noise_difference: of_longest(noise::by_difference(&series, &segments)),
-        noise_spline: of_longest(noise::by_spline(&series, &segments)),
+        noise_difference: of_longest(noise::by_difference(&series, &segments, &stop)),
+        noise_spline: of_longest(noise::by_spline(&series, &segments, &stop)),
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::method::shared::MAX_GAP;
 use crate::plot::{Axis, Curve, Drawn, FlagState, Flags, Trace, View};
 use crate::session::Outcome;
+use crate::stop::Stop;
 use crate::track::{Series, TimeAxis, Track};
 
 mod axes;
@@ -46,7 +47,8 @@ pub(super) fn figures(track: &Track, series: Series<'_>, outcome: &Outcome) -> V
     if series.is_empty() {
         return Vec::new();
     }
-    let drawn = Drawn::new(outcome.clone(), &series);
+    // Nobody stops it.
+    let Ok(drawn) = Drawn::new(outcome.clone(), &series, None, &Stop::never()) else { return Vec::new() };
     let flags = Flags::new(&drawn.flags(&series));
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
     let lost = outcome.detection.setup.settings.whole_or_off(MAX_GAP.key).map(|n| n as f64 + 1.5 - 1e-6);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::Setup;
 use crate::error::{Error, Result};
+use crate::math::pieces::{self, PIECE};
 use crate::method::noise::{self, Scales};
 use crate::method::{Gated, Judged, Rate, Segment, Together, Verdict, judge_segments, segments};
 use crate::repair::{self, Damage, Gap};
@@ -46,16 +47,15 @@ pub fn detect(
 ) -> Result<Detection> {
     let series = samples.series(channel, &track.time);
     if let Some(previous) = previous
-        && let Some(judged) = regated(previous, setup, &series)
+        && let Some(judged) = regated(previous, setup, &series, stop)?
     {
         let (segments, scales) = (previous.segments.clone(), previous.scales.clone());
         return Ok(Detection { setup: setup.clone(), segments, scales, judged });
     }
     let rate = rate_channel(track, channel, setup)?.map(|c| Series::of(c, &track.time));
     let rate = rate.as_ref().map(|r| Rate { t: &r.t, y: &r.y });
-    let segments = segments(&series, &setup.settings);
-    stop.check()?;
-    let scales = noise::scales(&series, &segments, &setup.settings);
+    let segments = segments(&series, &setup.settings, stop)?;
+    let scales = noise::scales(&series, &segments, &setup.settings, stop)?;
     let judged = judge_segments(setup.method, &series, (&segments, &scales), rate, &setup.settings, stop)?;
     Ok(Detection::new(setup.clone(), segments, scales, judged))
 }
@@ -94,14 +94,22 @@ fn rate_channel<'a>(track: &'a Track, channel: &Channel, setup: &Setup) -> Resul
 }
 
 /// The judgement under `setup` when it differs from that of `previous` in the gate alone.
-fn regated(previous: &Detection, setup: &Setup, series: &Series<'_>) -> Option<Gated> {
-    let key = setup.method.gate(&setup.settings)?;
+fn regated(
+    previous: &Detection,
+    setup: &Setup,
+    series: &Series<'_>,
+    stop: &Stop,
+) -> std::result::Result<Option<Gated>, Stopped> {
+    let Some((key, value)) = setup.method.gate(&setup.settings).and_then(|key| Some((key, setup.settings.get(key)?)))
+    else {
+        return Ok(None);
+    };
     let mut same = previous.setup.settings.clone();
-    same.set(key, key, setup.settings.get(key)?).ok()?;
-    let comparable = previous.setup.method.about().id == setup.method.about().id
+    let comparable = same.set(key, key, value).is_ok()
+        && previous.setup.method.about().id == setup.method.about().id
         && same == setup.settings
         && previous.setup.rate == setup.rate;
-    comparable.then(|| previous.judged.regated(&series.y, setup.settings.real(key))).flatten()
+    if comparable { previous.judged.regated(&series.y, setup.settings.real(key), stop) } else { Ok(None) }
 }
 
 /// Runs a method that judges channels together ([`Method::together`](crate::method::Method::together)) over all
@@ -119,8 +127,11 @@ pub fn detect_together(
         channels.iter().map(|(channel, samples)| samples.series(channel, &track.time)).collect();
     let series: Vec<&Series<'_>> = series.iter().collect();
     let parts = setup.method.judge_together(&series, &setup.settings, stop)?;
-    let detection = |part: Together| Detection::new(setup.clone(), part.segments, part.scales, part.judged.bounded());
-    Ok(parts.into_iter().map(detection).collect())
+    let detection = |part: Together| {
+        let judged = part.judged.bounded(stop)?;
+        Ok(Detection::new(setup.clone(), part.segments, part.scales, judged))
+    };
+    parts.into_iter().map(detection).collect()
 }
 
 /// Lets the decisions win over the detection, repairs the outliers that hold, and fills gaps.
@@ -136,42 +147,78 @@ pub fn settle(
     stop: &Stop,
 ) -> std::result::Result<Outcome, Stopped> {
     let series = samples.series(channel, &track.time);
-    let marks = marks(detection.judged.verdict(), &series, decisions);
-    let outliers: Vec<usize> =
-        marks.iter().filter(|m| m.effective() == Verdict::Outlier).map(|m| m.position as usize).collect();
-    let mut fixes = Vec::with_capacity(outliers.len());
-    let mut runs = Vec::new();
-    let mut fills = Vec::new();
-    let gaps = gaps_to_fill(track, channel, &series, &detection);
-    for (range, scales) in detection.segments.iter().zip(&detection.scales) {
-        stop.check()?;
+    let marks = marks(detection.judged.verdict(), &series, decisions, stop)?;
+    let outlier = |mark: &Mark| (mark.effective() == Verdict::Outlier).then_some(mark.position as usize);
+    let of = |piece: Range<usize>| marks[piece].iter().filter_map(outlier).collect::<Vec<usize>>();
+    let outliers = pieces::map(marks.len(), &|| stop.check(), of)?.concat();
+    let gaps = gaps_to_fill(track, channel, &series, &detection, stop)?;
+    let mut settled = Settled { fixes: Vec::with_capacity(outliers.len()), ..Settled::default() };
+    for (index, range) in detection.segments.iter().enumerate() {
+        stop.check_at(64 * index)?;
         let from = outliers.partition_point(|&i| i < range.start);
         let to = outliers.partition_point(|&i| i < range.end);
         let gap = |limit: usize| gaps.partition_point(|g| g.before < limit);
         let inside: &[GapPlaces] = &gaps[gap(range.start + 1)..gap(range.end)];
-        if from == to && inside.is_empty() {
-            continue;
+        if from < to || !inside.is_empty() {
+            settled.mend(&series, &detection, index, &outliers[from..to], inside, stop)?;
         }
-        let local: Vec<usize> = outliers[from..to].iter().map(|i| i - range.start).collect();
-        let segment = Segment::of(&series, range, *scales, None);
-        let part = detection.judged.slice(range.clone());
-        let own = detection.setup.method.own_repair(&segment, &detection.setup.settings, &part, &local);
-        let expected: Vec<f64> = local.iter().map(|&i| detection.judged.expected()[range.start + i]).collect();
+    }
+    let Settled { fixes, runs, mut fills } = settled;
+    fills.sort_by_key(|f: &Fill| f.place);
+    let counts = count(channel.rows(track), &detection, &marks, &fixes, &runs, fills.len(), stop)?;
+    Ok(Outcome { detection, marks, outliers, fixes, runs, fills, counts })
+}
+
+/// What takes the place of outliers and lost samples, segment by segment.
+#[derive(Debug, Default)]
+struct Settled {
+    fixes: Vec<f64>,
+    runs: Vec<Run>,
+    fills: Vec<Fill>,
+}
+
+impl Settled {
+    /// Repairs the outliers and fills the gaps of the segment with this index.
+    fn mend(
+        &mut self,
+        series: &Series<'_>,
+        detection: &Detection,
+        index: usize,
+        outliers: &[usize],
+        gaps: &[GapPlaces],
+        stop: &Stop,
+    ) -> std::result::Result<(), Stopped> {
+        let check = || stop.check();
+        let (range, setup) = (&detection.segments[index], &detection.setup);
+        let local = pieces::collect(outliers.len(), &check, |i| outliers[i] - range.start)?;
+        let segment = Segment::of(series, range, detection.scales[index], None);
+        let own = match repair::chosen(&setup.repair).way {
+            // Nobody asks for it otherwise.
+            repair::Way::Own => {
+                let part = detection.judged.part(range.clone());
+                setup.method.own_repair(&segment, &setup.settings, &part, &local, stop)?
+            }
+            _ => Vec::new(),
+        };
+        let expected = detection.judged.expected();
+        let expected = pieces::collect(local.len(), &check, |i| expected[outliers[i]])?;
         let damage = Damage { t: segment.t, y: segment.y, outliers: &local, own: &own, expected: &expected };
-        fixes.extend(repair::repair(&damage, &detection.setup.repair));
-        runs.extend(repair::runs(&local).map(|r| Run { start: range.start + local[r.start], length: r.len() }));
-        let holes: Vec<Gap> = inside
+        self.fixes.extend(repair::repair(&damage, &setup.repair, stop)?);
+        self.runs.extend(repair::runs(&local).map(|r| Run { start: range.start + local[r.start], length: r.len() }));
+        let holes: Vec<Gap> = gaps
             .iter()
             .map(|g| Gap { before: g.before - range.start, at: g.at.iter().map(|a| a.1).collect() })
             .collect();
-        for (gap, values) in inside.iter().zip(repair::fill(&damage, &holes, &detection.setup.repair)) {
+        for (gap, values) in gaps.iter().zip(repair::fill(&damage, &holes, &setup.repair, stop)?) {
             let values = values.unwrap_or_default();
-            fills.extend(gap.at.iter().zip(values).map(|(&(place, seconds), value)| Fill { place, seconds, value }));
+            self.fills.extend(gap.at.iter().zip(values).map(|(&(place, seconds), value)| Fill {
+                place,
+                seconds,
+                value,
+            }));
         }
+        Ok(())
     }
-    fills.sort_by_key(|f: &Fill| f.place);
-    let counts = count(channel.rows(track), &detection, &marks, &fixes, &runs, fills.len());
-    Ok(Outcome { detection, marks, outliers, fixes, runs, fills, counts })
 }
 
 /// So many verdicts at a time are counted in a byte each, which is as quick as reading them.
@@ -182,13 +229,21 @@ fn holds(verdict: &[Verdict], wanted: impl Fn(Verdict) -> bool) -> u8 {
     verdict.iter().map(|v| u8::from(wanted(*v))).fold(0, u8::wrapping_add)
 }
 
-fn marks(verdict: &[Verdict], series: &Series<'_>, decisions: &Decisions) -> Vec<Mark> {
+fn marks(
+    verdict: &[Verdict],
+    series: &Series<'_>,
+    decisions: &Decisions,
+    stop: &Stop,
+) -> std::result::Result<Vec<Mark>, Stopped> {
     let flags = |v: Verdict| (v == Verdict::Outlier) | (v == Verdict::Suspect);
     let decided = |(row, d): (u32, &Decision)| series.position(row as usize).map(|p| (p, d.ruling, d.said));
     let mut decided = decisions.iter().filter_map(decided).peekable();
     let mut marks = Vec::new();
     for (chunk, part) in verdict.chunks(STRIDE).enumerate() {
         let first = chunk * STRIDE;
+        if first.is_multiple_of(PIECE) {
+            stop.check()?;
+        }
         // Most samples are normal and nobody decided on them.
         if holds(part, flags) == 0 && decided.peek().is_none_or(|d| d.0 >= first + part.len()) {
             continue;
@@ -202,17 +257,26 @@ fn marks(verdict: &[Verdict], series: &Series<'_>, decisions: &Decisions) -> Vec
             }
         }
     }
-    marks
+    Ok(marks)
 }
 
-fn count(rows: usize, detection: &Detection, marks: &[Mark], fixes: &[f64], runs: &[Run], filled: usize) -> Counts {
+fn count(
+    rows: usize,
+    detection: &Detection,
+    marks: &[Mark],
+    fixes: &[f64],
+    runs: &[Run],
+    filled: usize,
+    stop: &Stop,
+) -> std::result::Result<Counts, Stopped> {
     let verdict = detection.judged.verdict();
     let unchecked = |part: &[Verdict]| usize::from(holds(part, |v| v == Verdict::Unchecked));
-    let unchecked: usize = verdict.chunks(STRIDE).map(unchecked).sum();
+    let unchecked = |piece: Range<usize>| verdict[piece].chunks(STRIDE).map(unchecked).sum::<usize>();
+    let unchecked: usize = pieces::map(verdict.len(), &|| stop.check(), unchecked)?.into_iter().sum();
     let decided_unchecked = marks.iter().filter(|m| m.verdict == Verdict::Unchecked).count();
     let removed = fixes.iter().filter(|v| v.is_nan()).count();
     let isolated = runs.iter().filter(|r| r.length == 1).count();
-    Counts {
+    Ok(Counts {
         rows,
         present: verdict.len(),
         missing: rows - verdict.len(),
@@ -226,5 +290,5 @@ fn count(rows: usize, detection: &Detection, marks: &[Mark], fixes: &[f64], runs
         filled,
         decisions: marks.iter().filter(|m| m.ruling.is_some()).count(),
         conflicts: marks.iter().filter(|m| m.conflict()).count(),
-    }
+    })
 }

@@ -1,9 +1,13 @@
 //! Several methods on one channel: which samples each flags, and how many agree.
 
+use std::ops::Range;
+
 use serde::Serialize;
 
 use super::{Preset, Setup};
+use crate::math::pieces;
 use crate::method::{Method, Verdict};
+use crate::stop::{Stop, Stopped};
 
 /// How many samples so many methods flag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -52,9 +56,13 @@ impl Ballot {
     }
 
     /// Adds the vote of a method with a verdict for each sample.
-    pub fn add(&mut self, method: &'static str, verdicts: &[Verdict]) {
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the votes any more; the vote is counted in part then.
+    pub fn add(&mut self, method: &'static str, verdicts: &[Verdict], stop: &Stop) -> Result<(), Stopped> {
         let mut own = Vec::new();
         for (i, verdict) in verdicts.iter().enumerate().take(self.flagged.len()) {
+            stop.check_at(i)?;
             self.checked[i] += u16::from(*verdict != Verdict::Unchecked);
             if *verdict == Verdict::Outlier {
                 self.flagged[i] += 1;
@@ -62,6 +70,7 @@ impl Ballot {
             }
         }
         self.voters.push((method, own));
+        Ok(())
     }
 
     /// How many samples there are.
@@ -107,10 +116,15 @@ impl Ballot {
     }
 
     /// The positions that at least so many methods flag, ascending.
-    #[must_use]
-    pub fn agreed(&self, votes: usize) -> Vec<u32> {
-        let agreed = |(_, flagged): &(u32, &u16)| usize::from(**flagged) >= votes;
-        (0..).zip(&self.flagged).filter(agreed).map(|(i, _)| i).collect()
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for them any more.
+    pub fn agreed(&self, votes: usize, stop: &Stop) -> Result<Vec<u32>, Stopped> {
+        #[expect(clippy::cast_possible_truncation, reason = "the loader refuses files of 2^32 rows and more")]
+        let agreed = |piece: Range<usize>| {
+            piece.filter(|&i| usize::from(self.flagged[i]) >= votes).map(|i| i as u32).collect::<Vec<u32>>()
+        };
+        Ok(pieces::map(self.flagged.len(), &|| stop.check(), agreed)?.concat())
     }
 
     /// How many samples are flagged by so many methods, from one to all.
@@ -153,9 +167,9 @@ mod tests {
     fn a_vote_counts_who_flags_and_who_could_judge() {
         use Verdict::{Normal as N, Outlier as O, Suspect as S, Unchecked as U};
         let mut ballot = Ballot::new(5);
-        ballot.add("a", &[O, O, N, U, S]);
-        ballot.add("b", &[O, N, N, U, N]);
-        ballot.add("c", &[O, O, U, O, U]);
+        ballot.add("a", &[O, O, N, U, S], &Stop::never()).unwrap();
+        ballot.add("b", &[O, N, N, U, N], &Stop::never()).unwrap();
+        ballot.add("c", &[O, O, U, O, U], &Stop::never()).unwrap();
         assert_eq!(ballot.verdicts(1), [O, O, N, O, N]);
         assert_eq!(ballot.verdicts(2), [O, O, N, U, N], "one of three judged the fourth sample");
         assert_eq!(ballot.verdicts(3), [O, N, U, U, U]);
@@ -163,7 +177,7 @@ mod tests {
         let of = |f: fn(&Agreement) -> usize| agreement.iter().map(f).collect::<Vec<_>>();
         assert_eq!((of(|a| a.exactly), of(|a| a.at_least)), (vec![1, 1, 1], vec![3, 2, 1]));
         assert_eq!((ballot.voters(1), ballot.voters(3), ballot.votes(0)), (vec!["a", "c"], vec!["c"], 3));
-        assert_eq!((ballot.half(), ballot.agreed(2), ballot.votes(9)), (2, vec![0, 1], 0));
+        assert_eq!((ballot.half(), ballot.agreed(2, &Stop::never()).unwrap(), ballot.votes(9)), (2, vec![0, 1], 0));
         assert_eq!(ballot.others(1), ["b"]);
     }
 

@@ -2,13 +2,16 @@
 //! (section 8a of the methods page). True wild points stand far off: between the noise and them lies a range of
 //! thresholds that all flag the same samples.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::{Detection, Setup, detect};
 use crate::error::Result;
+use crate::math::pieces;
 use crate::method::Verdict;
 use crate::param::{Kind, Param, Value};
-use crate::stop::Stop;
+use crate::stop::{Stop, Stopped};
 use crate::track::{Channel, Samples, Series, Track};
 
 mod range;
@@ -135,10 +138,10 @@ pub fn sweep(
     let base = detect(track, channel, samples, first, None, stop)?;
     let rest = setups[1..].par_iter().map(|(value, one)| {
         let detection = detect(track, channel, samples, one, Some(&base), stop)?;
-        Ok(count(*value, &detection, &series, track.truth_for(&channel.name)))
+        Ok(count(*value, &detection, &series, track.truth_for(&channel.name), stop)?)
     });
     let rest: Vec<Point> = rest.collect::<Result<_>>()?;
-    let mut points = vec![count(*first_value, &base, &series, track.truth_for(&channel.name))];
+    let mut points = vec![count(*first_value, &base, &series, track.truth_for(&channel.name), stop)?];
     points.extend(rest);
     let mut sweep = Sweep::of(param.key, points);
     if matches!(param.kind, Kind::Whole { .. } | Kind::WholeOrOff { .. }) {
@@ -147,16 +150,27 @@ pub fn sweep(
     Ok(sweep)
 }
 
-fn count(value: f64, detection: &Detection, series: &Series<'_>, truth: Option<&[bool]>) -> Point {
+fn count(
+    value: f64,
+    detection: &Detection,
+    series: &Series<'_>,
+    truth: Option<&[bool]>,
+    stop: &Stop,
+) -> std::result::Result<Point, Stopped> {
     let verdict = detection.judged.verdict();
-    let flagged = verdict.iter().filter(|v| **v == Verdict::Outlier).count();
-    let scored = truth.map(|truth| {
-        let wild = |at: usize| truth.get(series.row(at)).copied().unwrap_or(false);
-        let all = (0..series.len()).filter(|&at| wild(at)).count();
-        let hits = (0..series.len()).filter(|&at| verdict[at] == Verdict::Outlier && wild(at)).count();
-        (all - hits, flagged - hits)
-    });
-    Point { value, flagged, missed: scored.map(|s| s.0), false_alarms: scored.map(|s| s.1) }
+    let count = |counts: &(dyn Fn(usize) -> bool + Sync)| {
+        let piece = |piece: Range<usize>| piece.filter(|&at| counts(at)).count();
+        Ok(pieces::map(verdict.len(), &|| stop.check(), piece)?.into_iter().sum::<usize>())
+    };
+    let flagged = |at: usize| verdict[at] == Verdict::Outlier;
+    let wild = |truth: &[bool], at: usize| truth.get(series.row(at)).copied().unwrap_or(false);
+    let mut point = Point { value, flagged: count(&flagged)?, missed: None, false_alarms: None };
+    if let Some(truth) = truth {
+        let hits = count(&|at| flagged(at) && wild(truth, at))?;
+        point.missed = Some(count(&|at| wild(truth, at))? - hits);
+        point.false_alarms = Some(point.flagged - hits);
+    }
+    Ok(point)
 }
 
 /// The longest of some plateaus; of equally long ones (to within the rounding of the grid) the first, which flags

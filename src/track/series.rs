@@ -1,6 +1,7 @@
 //! The present samples of one channel, and where the record is cut.
 
 use std::borrow::Cow;
+use std::convert::Infallible;
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -192,38 +193,59 @@ impl<'a> Series<'a> {
     }
 
     /// Positions inside `range`, but not its first, before which more than `most` samples are lost, ascending.
-    #[must_use]
-    pub fn losses(&self, range: Range<usize>, most: usize) -> Vec<usize> {
+    ///
+    /// # Errors
+    /// What `check` gives, which is asked before each piece of work.
+    pub fn losses<E: Send>(
+        &self,
+        range: Range<usize>,
+        most: usize,
+        check: &(impl Fn() -> Result<(), E> + Sync),
+    ) -> Result<Vec<usize>, E> {
         let steps = self.t.get(range.clone()).unwrap_or_default();
         let piece = |chunk: usize| {
+            check()?;
             let begin = chunk * CHUNK;
             let t = &steps[begin..(begin + CHUNK + 1).min(steps.len())];
             // Whether there is one is asked of all first, without a branch: in most pieces there is none.
             let lost = |w: &[f64]| lost_samples(w[1] - w[0], self.interval) > most;
             if !t.windows(2).fold(false, |any, w| any | lost(w)) {
-                return Vec::new();
+                return Ok(Vec::new());
             }
             let at = (range.start + begin + 1..).zip(t.windows(2));
-            at.filter(|(_, w)| lost(w)).map(|(position, _)| position).collect()
+            Ok(at.filter(|(_, w)| lost(w)).map(|(position, _)| position).collect())
         };
-        let pieces: Vec<Vec<usize>> =
-            (0..steps.len().saturating_sub(1).div_ceil(CHUNK)).into_par_iter().map(piece).collect();
-        pieces.concat()
+        let pieces = (0..steps.len().saturating_sub(1).div_ceil(CHUNK)).into_par_iter();
+        Ok(pieces.map(piece).collect::<Result<Vec<Vec<usize>>, E>>()?.concat())
     }
 
     /// The stretches between cuts: a cut lies wherever more than `max_gap` samples are lost in a row (none: never).
     #[must_use]
     pub fn segments(&self, max_gap: Option<usize>) -> Vec<Range<usize>> {
+        let Ok(segments) = self.segments_unless(max_gap, &|| Ok::<(), Infallible>(()));
+        segments
+    }
+
+    /// [`Series::segments`] that `check` may end.
+    ///
+    /// # Errors
+    /// What `check` gives, which is asked before each piece of work.
+    pub fn segments_unless<E: Send>(
+        &self,
+        max_gap: Option<usize>,
+        check: &(impl Fn() -> Result<(), E> + Sync),
+    ) -> Result<Vec<Range<usize>>, E> {
+        let cuts = max_gap.map(|max_gap| self.losses(0..self.len(), max_gap, check)).transpose()?;
         let mut segments = Vec::new();
         let mut start = 0;
-        for cut in max_gap.map_or_else(Vec::new, |max_gap| self.losses(0..self.len(), max_gap)) {
+        for cut in cuts.unwrap_or_default() {
             segments.push(start..cut);
             start = cut;
         }
         if start < self.len() {
             segments.push(start..self.len());
         }
-        segments
+        Ok(segments)
     }
 }
 
@@ -297,8 +319,9 @@ mod tests {
         }
         let y = vec![0.0; t.len()];
         let s = Series::new(&t, &y);
-        assert_eq!(s.losses(0..t.len(), 5), gaps);
-        assert_eq!(s.losses(777..CHUNK + 1, 5), [CHUNK - 1, CHUNK]);
+        let losses = |range| s.losses(range, 5, &|| Ok::<(), Infallible>(())).unwrap();
+        assert_eq!(losses(0..t.len()), gaps);
+        assert_eq!(losses(777..CHUNK + 1), [CHUNK - 1, CHUNK]);
         assert_eq!(s.segments(Some(5)).len(), gaps.len() + 1);
     }
 

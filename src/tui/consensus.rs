@@ -108,12 +108,12 @@ impl Poll {
             progress(done);
             let id = setup.method.about().id;
             match detect(&self.track, channel, &self.samples, setup, None, stop) {
-                Ok(detection) => ballot.add(id, detection.judged.verdict()),
+                Ok(detection) => ballot.add(id, detection.judged.verdict(), stop)?,
                 Err(Error::Stopped) => return Err(Error::Stopped),
                 Err(e) => left_out.push((id, e.to_string().replace("\n  ", "; "))),
             }
         }
-        let (pyramid, agreed) = (VotesPlot::pyramid(&ballot), ballot.agreed(ballot.half()));
+        let (pyramid, agreed) = (VotesPlot::pyramid(&ballot, stop)?, ballot.agreed(ballot.half(), stop)?);
         Ok(Consensus { question: self.question.clone(), ballot, pyramid, agreed, left_out })
     }
 }

@@ -84,9 +84,8 @@ impl Judge {
         let channel = &self.track.channels[self.channel];
         let detection = self.detection(stop)?;
         let outcome = settle(&self.track, channel, &self.samples, detection, &self.decisions, stop)?;
-        stop.check()?;
         let series = self.samples.series(channel, &self.track.time);
-        Ok(Drawn::after(outcome, &series, self.previous.as_deref()))
+        Ok(Drawn::new(outcome, &series, self.previous.as_deref(), stop)?)
     }
 }
 

@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 
 use super::{MAX_ORDER, Polynomial};
+use crate::math::pieces::{self, Check};
 
 /// Points in one piece of work.
 const CHUNK: usize = 16_384;
@@ -20,12 +21,7 @@ impl Polynomial {
     ///
     /// # Panics
     /// When there is no point, or the slices differ in length.
-    pub fn fit_long<E: Send>(
-        t: &[f64],
-        y: &[f64],
-        order: usize,
-        check: impl Fn() -> Result<(), E> + Sync,
-    ) -> Result<Self, E> {
+    pub fn fit_long<E: Send>(t: &[f64], y: &[f64], order: usize, check: &impl Check<E>) -> Result<Self, E> {
         assert!(!t.is_empty() && t.len() == y.len(), "a fit needs points");
         let mut fit = Self::unfitted(t, y[0], order);
         for k in 0..fit.terms {
@@ -53,28 +49,41 @@ impl Polynomial {
     }
 
     /// [`Polynomial::residual`] at many points, in parallel; all three slices are of one length.
-    pub fn residuals_long(&self, t: &[f64], y: &[f64], residual: &mut [f64]) {
-        let chunks = residual.par_chunks_mut(CHUNK).zip(t.par_chunks(CHUNK)).zip(y.par_chunks(CHUNK));
-        chunks.for_each(|((residual, t), y)| {
-            for ((residual, t), y) in residual.chunks_mut(LANES).zip(t.chunks(LANES)).zip(y.chunks(LANES)) {
+    ///
+    /// # Errors
+    /// What `check` gives, which is asked before each piece of work.
+    pub fn residuals_long<E: Send>(
+        &self,
+        t: &[f64],
+        y: &[f64],
+        residual: &mut [f64],
+        check: &impl Check<E>,
+    ) -> Result<(), E> {
+        pieces::over(residual, check, |first, residual| {
+            let here = first..first + residual.len();
+            let (t, y) = (t[here.clone()].chunks(LANES), y[here].chunks(LANES));
+            for ((residual, t), y) in residual.chunks_mut(LANES).zip(t).zip(y) {
                 let mut rest = [0.0; LANES];
                 rest.iter_mut().zip(y).for_each(|(rest, y)| *rest = y - self.level);
                 self.walk_lanes(t, |k, i, p| rest[i] -= self.coefficients[k] * p);
                 residual.copy_from_slice(&rest[..t.len()]);
             }
-        });
+        })
     }
 
     /// [`Polynomial::at`] at many points, in parallel; both slices are of one length.
-    pub fn values_long(&self, t: &[f64], value: &mut [f64]) {
-        let chunks = value.par_chunks_mut(CHUNK).zip(t.par_chunks(CHUNK));
-        chunks.for_each(|(value, t)| {
-            for (value, t) in value.chunks_mut(LANES).zip(t.chunks(LANES)) {
+    ///
+    /// # Errors
+    /// What `check` gives, which is asked before each piece of work.
+    pub fn values_long<E: Send>(&self, t: &[f64], value: &mut [f64], check: &impl Check<E>) -> Result<(), E> {
+        pieces::over(value, check, |first, value| {
+            for (value, t) in value.chunks_mut(LANES).zip(t[first..].chunks(LANES)) {
                 let mut sum = [0.0; LANES];
+                let t = &t[..value.len()];
                 self.walk_lanes(t, |k, i, p| sum[i] += self.coefficients[k] * p);
                 value.iter_mut().zip(sum).for_each(|(value, sum)| *value = self.level + sum);
             }
-        });
+        })
     }
 
     /// As `walk`, for up to [`LANES`] times side by side: calls `visit` with the polynomial's index, the place of the
@@ -135,6 +144,7 @@ impl Polynomial {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::pieces::{certain, to_the_end};
 
     #[test]
     fn it_is_the_fit_of_few_points() {
@@ -144,7 +154,7 @@ mod tests {
                 (0..n).map(|i| 1e6 + (i as f64 / n as f64 * 5.0).sin() * 1e3 + (i * i % 7) as f64).collect();
             for order in [0, 1, 2, 5, 8] {
                 let short = Polynomial::fit(&t, &y, order);
-                let long = Polynomial::fit_long(&t, &y, order, || Ok::<(), ()>(())).unwrap();
+                let long = Polynomial::fit_long(&t, &y, order, &|| Ok::<(), ()>(())).unwrap();
                 for i in (0..n).step_by(1 + n / 50) {
                     assert!((short.at(t[i]) - long.at(t[i])).abs() < 1e-8, "{n} {order} {i}");
                     assert!((long.residual(t[i], y[i]) - (y[i] - long.at(t[i]))).abs() < 1e-8);
@@ -155,7 +165,7 @@ mod tests {
 
     #[test]
     fn a_refusal_ends_it() {
-        assert_eq!(Polynomial::fit_long(&[0.0, 1.0], &[0.0, 1.0], 1, || Err("no")), Err("no"));
+        assert_eq!(Polynomial::fit_long(&[0.0, 1.0], &[0.0, 1.0], 1, &|| Err("no")), Err("no"));
     }
 
     #[test]
@@ -164,10 +174,10 @@ mod tests {
         let t: Vec<f64> = (0..n).map(|i| 1.7e9 + i as f64 * 0.1 + 0.02 * (i % 3) as f64).collect();
         let y: Vec<f64> = (0..n).map(|i| (i as f64 * 12.9898).sin() * 7.0).collect();
         for order in [0, 1, 2, 5, 8] {
-            let fit = Polynomial::fit_long(&t, &y, order, || Ok::<(), ()>(())).unwrap();
+            let fit = Polynomial::fit_long(&t, &y, order, &|| Ok::<(), ()>(())).unwrap();
             let (mut residual, mut value) = (vec![0.0; n], vec![0.0; n]);
-            fit.residuals_long(&t, &y, &mut residual);
-            fit.values_long(&t, &mut value);
+            certain(fit.residuals_long(&t, &y, &mut residual, &to_the_end));
+            certain(fit.values_long(&t, &mut value, &to_the_end));
             for i in 0..n {
                 assert_eq!(residual[i].to_bits(), fit.residual(t[i], y[i]).to_bits(), "order {order}, {i}");
                 assert_eq!(value[i].to_bits(), fit.at(t[i]).to_bits(), "order {order}, {i}");

@@ -7,8 +7,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use super::filter::{Filter, Tuning};
 use super::passes::{self, Record};
 use super::single::{Gate, START_SCALES};
+use crate::math::pieces;
 use crate::method::predictor::{Answer, Engine, Model, Page, Prediction, Sink, passed_over_by_third};
-use crate::method::{Judged, Restart, Together, Way, exceeds, noise, shared};
+use crate::method::{Judged, Restart, Together, Verdict, Way, exceeds, noise, shared};
 use crate::param::Settings;
 use crate::stop::{Stop, Stopped};
 use crate::track::Series;
@@ -21,14 +22,14 @@ use crate::track::Series;
 /// # Errors
 /// [`Stopped`] as soon as nobody waits for the result any more.
 pub fn judge_joint(channels: &[&Series<'_>], settings: &Settings, stop: &Stop) -> Result<Vec<Together>, Stopped> {
-    let times = all_times(channels);
-    let columns: Vec<Vec<f64>> = channels.iter().map(|series| on(&times, series)).collect();
+    let times = all_times(channels, stop)?;
+    let columns: Vec<Vec<f64>> = channels.iter().map(|series| on(&times, series, stop)).collect::<Result<_, _>>()?;
     let together = Series::new(&times, &times);
-    let cuts = together.segments(settings.whole_or_off(shared::MAX_GAP.key));
+    let cuts = together.segments_unless(settings.whole_or_off(shared::MAX_GAP.key), &|| stop.check())?;
     let own: Vec<Vec<Range<usize>>> =
         channels.iter().map(|series| cuts.iter().map(|cut| within(series, &times[cut.clone()])).collect()).collect();
-    let scales: Vec<Vec<noise::Scales>> =
-        channels.iter().zip(&own).map(|(series, ranges)| noise::scales(series, ranges, settings)).collect();
+    let scales = channels.iter().zip(&own).map(|(series, ranges)| noise::scales(series, ranges, settings, stop));
+    let scales: Vec<Vec<noise::Scales>> = scales.collect::<Result<_, _>>()?;
     let mut whole = vec![Judged::default(); channels.len()];
     for (s, cut) in cuts.iter().enumerate() {
         stop.check()?;
@@ -45,10 +46,11 @@ pub fn judge_joint(channels: &[&Series<'_>], settings: &Settings, stop: &Stop) -
             };
             passes::judge(&many, &super::plan(settings), stop)?
         } else {
-            vec![Judged { own: vec![f64::NAN; cut.len()], ..Judged::unchecked(cut.len()) }; channels.len()]
+            let nothing = Judged::unchecked_many(cut.len(), stop)?;
+            vec![Judged { own: nothing.expected.clone(), ..nothing }; channels.len()]
         };
         for ((whole, part), y) in whole.iter_mut().zip(parts).zip(&columns) {
-            whole.append(present(part, &y[cut.clone()]));
+            whole.append(present(part, &y[cut.clone()], stop)?, stop)?;
         }
     }
     let parts = whole.into_iter().zip(own).zip(scales).map(|((judged, segments), scales)| {
@@ -66,18 +68,31 @@ pub(super) fn limit(settings: &Settings, channels: usize) -> f64 {
 }
 
 /// Every time that any channel has, once, in order.
-fn all_times(channels: &[&Series<'_>]) -> Vec<f64> {
-    let mut times: Vec<f64> = channels.iter().flat_map(|series| series.t.iter().copied()).collect();
-    times.sort_unstable_by(f64::total_cmp);
-    times.dedup();
-    times
+fn all_times(channels: &[&Series<'_>], stop: &Stop) -> Result<Vec<f64>, Stopped> {
+    let longest = channels.iter().map(|series| series.len()).max().unwrap_or(0);
+    let mut times: Vec<f64> = Vec::with_capacity(longest);
+    // Each channel is in order of time: the earliest that any of them has not given yet is next.
+    let mut next = vec![0; channels.len()];
+    loop {
+        stop.check_at(times.len())?;
+        let at = |(series, next): (&&Series<'_>, &usize)| series.t.get(*next).copied();
+        let Some(time) = channels.iter().zip(&next).filter_map(at).reduce(f64::min) else { return Ok(times) };
+        times.push(time);
+        for (series, next) in channels.iter().zip(&mut next) {
+            *next += usize::from(series.t.get(*next).is_some_and(|t| *t <= time));
+        }
+    }
 }
 
 /// The values of a channel at all these times; NaN where it has none.
-fn on(times: &[f64], series: &Series<'_>) -> Vec<f64> {
+fn on(times: &[f64], series: &Series<'_>, stop: &Stop) -> Result<Vec<f64>, Stopped> {
     let mut own = series.t.iter().zip(series.y.iter()).peekable();
-    let value = |time: &f64| own.next_if(|(t, _)| *t == time).map_or(f64::NAN, |(_, y)| *y);
-    times.iter().map(value).collect()
+    let mut values = Vec::with_capacity(times.len());
+    for (i, time) in times.iter().enumerate() {
+        stop.check_at(i)?;
+        values.push(own.next_if(|(t, _)| *t == time).map_or(f64::NAN, |(_, y)| *y));
+    }
+    Ok(values)
 }
 
 /// Positions of the channel's samples between the first and the last of these times.
@@ -87,19 +102,27 @@ fn within(series: &Series<'_>, times: &[f64]) -> Range<usize> {
 }
 
 /// What is said of the samples that a channel has.
-fn present(judged: Judged, y: &[f64]) -> Judged {
-    fn keep<T: Copy>(all: &[T], y: &[f64]) -> Vec<T> {
-        all.iter().zip(y).filter(|(_, y)| !y.is_nan()).map(|(x, _)| *x).collect()
+fn present(judged: Judged, y: &[f64], stop: &Stop) -> Result<Judged, Stopped> {
+    let check = || stop.check();
+    if !pieces::map(y.len(), &check, |piece| y[piece].iter().any(|y| y.is_nan()))?.contains(&true) {
+        return Ok(judged);
     }
-    let before = |at: usize| y[..at].iter().filter(|y| !y.is_nan()).count();
-    Judged {
-        verdict: keep(&judged.verdict, y),
-        expected: keep(&judged.expected, y),
-        tolerance: keep(&judged.tolerance, y),
-        own: keep(&judged.own, y),
-        restarts: judged.restarts.iter().map(|r| Restart { at: before(r.at), ..*r }).collect(),
+    let kept = |piece: Range<usize>| piece.filter(|&i| !y[i].is_nan()).collect::<Vec<usize>>();
+    let kept = pieces::map(y.len(), &check, kept)?.concat();
+    let numbers = |all: &[f64]| pieces::collect(kept.len(), &check, |i| all[kept[i]]);
+    let mut verdict = vec![Verdict::Unchecked; kept.len()];
+    pieces::over(&mut verdict, &check, |first, verdict| {
+        verdict.iter_mut().zip(&kept[first..]).for_each(|(verdict, &i)| *verdict = judged.verdict[i]);
+    })?;
+    let restart = |r: &Restart| Restart { at: kept.partition_point(|&i| i < r.at), ..*r };
+    Ok(Judged {
+        verdict,
+        expected: numbers(&judged.expected)?,
+        tolerance: numbers(&judged.tolerance)?,
+        own: numbers(&judged.own)?,
+        restarts: judged.restarts.iter().map(restart).collect(),
         ..Judged::default()
-    }
+    })
 }
 
 /// Several channels between two cuts.
@@ -133,8 +156,7 @@ impl Record for Many<'_> {
                 Way::Backward => engine.push(-self.t[n - 1 - at], n - 1 - at, &mut pages),
             }
         }
-        pages.0.iter_mut().for_each(Page::complete);
-        Ok(())
+        pages.0.iter_mut().try_for_each(|page| page.complete(stop))
     }
 }
 

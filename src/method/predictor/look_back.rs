@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::{Answer, Batch, Engine, Model, Prediction, Sink, feed};
+use crate::math::pieces::PIECE;
 use crate::method::{Judged, Restart, Segment, Verdict, Way};
 use crate::stop::{Stop, Stopped};
 
@@ -21,18 +22,23 @@ pub struct Page {
 
 impl Page {
     /// An empty page for a run over `n` samples that keeps what is said of the first `kept` in time.
-    #[must_use]
-    pub fn new(n: usize, way: Way, kept: usize) -> Self {
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more.
+    pub fn new(n: usize, way: Way, kept: usize, stop: &Stop) -> Result<Self, Stopped> {
         let mut page = Self { kept, reversed: (way == Way::Backward).then_some(n), ..Self::default() };
         page.judged.verdict.reserve_exact(kept);
         page.judged.expected.reserve_exact(kept);
         page.judged.tolerance.reserve_exact(kept);
-        page.clear();
-        page
+        page.clear(stop)?;
+        Ok(page)
     }
 
     /// Empties the page for another run.
-    pub fn clear(&mut self) {
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more.
+    pub fn clear(&mut self, stop: &Stop) -> Result<(), Stopped> {
         self.judged.verdict.clear();
         self.judged.expected.clear();
         self.judged.tolerance.clear();
@@ -40,13 +46,21 @@ impl Page {
         self.first = None;
         // With time the page grows as it is written: memory that is filled twice costs twice.
         if self.reversed.is_some() {
-            self.grow(self.kept);
+            self.complete(stop)?;
         }
+        Ok(())
     }
 
     /// To be called when all samples have come: those of which nothing was said are unchecked.
-    pub fn complete(&mut self) {
-        self.grow(self.kept);
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more.
+    pub fn complete(&mut self, stop: &Stop) -> Result<(), Stopped> {
+        while self.judged.verdict.len() < self.kept {
+            stop.check()?;
+            self.grow(self.kept.min(self.judged.verdict.len() + PIECE));
+        }
+        Ok(())
     }
 
     /// Of the samples up to `n` that are not on the page yet, nothing is said.
@@ -198,13 +212,13 @@ pub fn judge_both_ways<M: Batch<Sample = f64, Prediction = Prediction>>(
 ) -> Result<Judged, Stopped> {
     let n = segment.len();
     let Some(first) = First::of(model(Way::Forward), segment, stop)? else {
-        return Ok(Judged::unchecked(n));
+        return Judged::unchecked_many(n, stop);
     };
     let run = |way, kept| {
-        let mut page = Page::new(n, way, kept);
+        let mut page = Page::new(n, way, kept, stop)?;
         let mut engine = Engine::new(model(way), segment.interval, max_run);
         feed(&mut engine, segment.t, |i| segment.y[i], way, &mut page, stop)?;
-        page.complete();
+        page.complete(stop)?;
         Ok(page.judged)
     };
     if !look_back {

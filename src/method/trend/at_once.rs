@@ -28,13 +28,13 @@ pub(in crate::method) fn normal_at(n: usize) -> f64 {
 
 impl<F: Fn(usize) -> f64 + Sync> AtOnce<F> {
     /// What `residual` are judged by; none when they are fewer than three.
-    fn limit(&self, residual: &[f64], survivors: &Survivors<'_>) -> Option<Limit> {
+    fn limit(&self, residual: &[f64], survivors: &Survivors<'_>, stop: &Stop) -> Result<Option<Limit>, Stopped> {
         if residual.len() < 3 {
-            return None;
+            return Ok(None);
         }
-        let moments = Moments::of_long(residual);
+        let moments = Moments::of_long(residual, &|| stop.check())?;
         let scale = survivors.bounded(moments.deviation());
-        Some(Limit { mean: moments.mean, scale, tolerance: (self.multiplier)(residual.len()) * scale })
+        Ok(Some(Limit { mean: moments.mean, scale, tolerance: (self.multiplier)(residual.len()) * scale }))
     }
 }
 
@@ -49,13 +49,14 @@ impl<F: Fn(usize) -> f64 + Sync> Criterion for AtOnce<F> {
 
     fn pass(&self, survivors: &Survivors<'_>, stop: &Stop) -> Result<Pass, Stopped> {
         let groups: Vec<Option<Limit>> = if self.groups == 1 {
-            vec![self.limit(survivors.residual, survivors)]
+            vec![self.limit(survivors.residual, survivors, stop)?]
         } else {
             let mut members = vec![Vec::new(); self.groups];
-            for (&v, &p) in survivors.residual.iter().zip(survivors.position) {
+            for (i, (&v, &p)) in survivors.residual.iter().zip(survivors.position).enumerate() {
+                stop.check_at(i)?;
                 members[p % self.groups].push(v);
             }
-            members.iter().map(|m| self.limit(m, survivors)).collect()
+            members.iter().map(|m| self.limit(m, survivors, stop)).collect::<Result<_, _>>()?
         };
         let chunks = survivors.residual.par_chunks(CHUNK).zip(survivors.position.par_chunks(CHUNK)).enumerate();
         let flagged: Vec<Vec<usize>> = chunks

@@ -1,10 +1,12 @@
 //! Tests that remove the most deviant residual, one at a time: Romanovsky, Grubbs, generalised ESD.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use super::{Criterion, Limit, Pass, Survivors};
 use crate::math::extremes::Extremes;
 use crate::math::moments::Moments;
+use crate::math::pieces;
 use crate::math::student::student_upper;
 use crate::method::exceeds;
 use crate::stop::{Stop, Stopped};
@@ -56,9 +58,9 @@ pub(in crate::method) struct Removals<'a> {
 
 impl<'a> Removals<'a> {
     /// None taken out yet.
-    pub(in crate::method) fn new(residual: &'a [f64]) -> Self {
-        let left = Moments::of_long(residual);
-        Self { residual, extremes: Extremes::new(residual), taken: Vec::new(), left, squares: left.squares }
+    pub(in crate::method) fn new(residual: &'a [f64], stop: &Stop) -> Result<Self, Stopped> {
+        let left = Moments::of_long(residual, &|| stop.check())?;
+        Ok(Self { residual, extremes: Extremes::new(residual), taken: Vec::new(), left, squares: left.squares })
     }
 
     /// How many are left.
@@ -67,9 +69,9 @@ impl<'a> Removals<'a> {
     }
 
     /// Takes out the most deviant and says how far it lies from the mean of those left and itself.
-    pub(in crate::method) fn take(&mut self) -> Option<f64> {
-        let left = self.left;
-        let i = self.extremes.next(left.mean, || left.deviation())?;
+    pub(in crate::method) fn take(&mut self, stop: &Stop) -> Result<Option<f64>, Stopped> {
+        let (left, check) = (self.left, || stop.check());
+        let Some(i) = self.extremes.next(left.mean, || left.deviation(), &check)? else { return Ok(None) };
         let d = self.residual[i] - self.left.mean;
         self.taken.push(i);
         let n = self.left.count;
@@ -80,11 +82,14 @@ impl<'a> Removals<'a> {
         if self.left.squares < 1e-4 * self.squares {
             let mut kept = vec![true; self.residual.len()];
             self.taken.iter().for_each(|&i| kept[i] = false);
-            let rest: Vec<f64> = self.residual.iter().zip(kept).filter(|(_, kept)| *kept).map(|(v, _)| *v).collect();
-            self.left = Moments::of_long(&rest);
+            let rest = |piece: Range<usize>| piece.filter(|&i| kept[i]).map(|i| self.residual[i]).collect::<Vec<f64>>();
+            let rest = pieces::map(kept.len(), &check, rest)?;
+            let mut left = Vec::with_capacity(kept.len());
+            rest.iter().try_for_each(|part| pieces::extend(&mut left, part, &check))?;
+            self.left = Moments::of_long(&left, &check)?;
             self.squares = self.left.squares;
         }
-        Some(d.abs())
+        Ok(Some(d.abs()))
     }
 }
 
@@ -98,7 +103,7 @@ impl Criterion for OneAtATime {
     }
 
     fn pass(&self, survivors: &Survivors<'_>, stop: &Stop) -> Result<Pass, Stopped> {
-        let mut removals = Removals::new(survivors.residual);
+        let mut removals = Removals::new(survivors.residual, stop)?;
         let mut last = None;
         while removals.len() >= 3 {
             stop.check_at(removals.taken.len())?;
@@ -106,7 +111,7 @@ impl Criterion for OneAtATime {
             let scale = survivors.bounded(removals.left.deviation());
             let tolerance = self.0.at(removals.len()) * scale;
             last = Some(Limit { mean, scale, tolerance });
-            let deviation = removals.take();
+            let deviation = removals.take(stop)?;
             if !deviation.is_some_and(|d| tolerance > 0.0 && exceeds(d, tolerance)) {
                 // It passed: it stays.
                 removals.taken.pop();
@@ -134,9 +139,9 @@ mod tests {
     fn what_is_left_has_the_moments_of_the_definition() {
         let mut v: Vec<f64> = (0..400).map(|i| (f64::from(i) * 12.9898).sin()).collect();
         (v[7], v[90], v[91]) = (1e15, -1e12, 4e6);
-        let mut removals = Removals::new(&v);
+        let mut removals = Removals::new(&v, &Stop::never()).unwrap();
         for _ in 0..200 {
-            removals.take();
+            removals.take(&Stop::never()).unwrap();
             let rest: Vec<f64> = (0..400).filter(|i| !removals.taken.contains(i)).map(|i| v[i]).collect();
             let plain = Moments::of(&rest);
             assert!((removals.left.squares / plain.squares - 1.0).abs() < 1e-9, "{}", removals.taken.len());

@@ -8,6 +8,7 @@ use crate::math::order::median_in_place;
 use crate::math::polyfit::Polynomial;
 use crate::method::{Segment, noise, shared};
 use crate::param::Settings;
+use crate::stop::{Stop, Stopped};
 use crate::track::Series;
 
 /// How many scales a lone spike reaches at most among `n` residuals, at a place with this leverage.
@@ -64,25 +65,32 @@ pub(super) fn of_trend(
     block: &Range<usize>,
     limits: &[Option<Limit>],
     whole: &OnceLock<f64>,
-) -> Option<String> {
+    stop: &Stop,
+) -> Result<Option<String>, Stopped> {
     // As everywhere: fewer than 50 third differences say too little by themselves.
     let noise = if block.len() < 53 {
-        *whole.get_or_init(|| difference_scale(segment, &(0..segment.len())))
+        match whole.get() {
+            Some(noise) => *noise,
+            None => {
+                let noise = difference_scale(segment, &(0..segment.len()), stop)?;
+                *whole.get_or_init(|| noise)
+            }
+        }
     } else {
-        difference_scale(segment, block)
+        difference_scale(segment, block, stop)?
     };
     let scale = limits.iter().flatten().map(|limit| limit.scale).fold(0.0, f64::max);
     let follows = scale <= 3.0 * noise.max(segment.floor);
-    (!follows).then(|| {
+    Ok((!follows).then(|| {
         "the trend does not follow the data: what is left of them is more than three times their noise; raise \
          trend_order or set block"
             .into()
-    })
+    }))
 }
 
 /// The noise of a block by its third differences; of a long one by 64 stretches of it, whose median is within 2 % of
 /// the whole and costs a thousandth.
-fn difference_scale(segment: &Segment<'_>, block: &Range<usize>) -> f64 {
+fn difference_scale(segment: &Segment<'_>, block: &Range<usize>, stop: &Stop) -> Result<f64, Stopped> {
     const STRETCH: usize = 256;
     let n = block.len();
     let starts: Vec<usize> =
@@ -94,10 +102,11 @@ fn difference_scale(segment: &Segment<'_>, block: &Range<usize>) -> f64 {
             let stretch = block.start + start..block.start + start + length;
             let mut series = Series::new(&segment.t[stretch.clone()], &segment.y[stretch]);
             series.interval = segment.interval;
-            noise::by_difference(&series, std::slice::from_ref(&(0..length))).first().copied().unwrap_or(0.0)
+            let scale = noise::by_difference(&series, std::slice::from_ref(&(0..length)), stop)?;
+            Ok(scale.first().copied().unwrap_or(0.0))
         })
-        .collect();
-    median_in_place(&mut scales)
+        .collect::<Result<_, Stopped>>()?;
+    Ok(median_in_place(&mut scales))
 }
 
 #[cfg(test)]

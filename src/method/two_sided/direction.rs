@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::candidates::{Candidates, Closest, NO_CANDIDATE};
+use crate::math::pieces;
 use crate::method::predictor::{Answer, Engine, Sink, feed};
 use crate::method::{Direction, Restart, Segment, Way};
 use crate::stop::{Stop, Stopped};
@@ -24,15 +25,15 @@ pub struct OneWay {
 }
 
 impl OneWay {
-    fn new(n: usize, way: Way) -> Self {
-        Self {
+    fn new(n: usize, way: Way, stop: &Stop) -> Result<Self, Stopped> {
+        Ok(Self {
             said: vec![Direction::Unjudged; n],
-            expected: vec![f64::NAN; n],
+            expected: pieces::collect(n, &|| stop.check(), |_| f64::NAN)?,
             code: vec![NO_CANDIDATE; n],
             traces: Vec::new(),
             restarts: Vec::new(),
             way,
-        }
+        })
     }
 
     #[inline]
@@ -92,7 +93,7 @@ impl Sink<Closest> for OneWay {
 /// [`Stopped`] as soon as nobody waits for the result any more.
 pub fn run(model: Candidates, segment: &Segment<'_>, max_run: usize, way: Way, stop: &Stop) -> Result<OneWay, Stopped> {
     let n = segment.len();
-    let mut page = OneWay::new(n, way);
+    let mut page = OneWay::new(n, way, stop)?;
     let mut engine = Engine::new(model, segment.interval, max_run);
     feed(&mut engine, segment.t, |i| segment.y[i], way, &mut page, stop)?;
     Ok(page)

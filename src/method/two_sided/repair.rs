@@ -2,12 +2,18 @@
 
 use super::candidates::{Candidate, TWO_POINT, candidates};
 use crate::math::polyfit::Polynomial;
-use crate::method::{Judged, Segment};
+use crate::method::{Part, Segment};
 use crate::param::Settings;
+use crate::stop::{Stop, Stopped};
 
 /// One value for each sample of `outliers` (ascending positions); NaN where the sample is removed.
-#[must_use]
-pub(super) fn repair(segment: &Segment<'_>, settings: &Settings, judged: &Judged, outliers: &[usize]) -> Vec<f64> {
+pub(super) fn repair(
+    segment: &Segment<'_>,
+    settings: &Settings,
+    judged: &Part<'_>,
+    outliers: &[usize],
+    stop: &Stop,
+) -> Result<Vec<f64>, Stopped> {
     let list = candidates(settings);
     let matched = settings.word("repair_rule") == "matched";
     let mut accepted = vec![true; segment.len()];
@@ -15,7 +21,9 @@ pub(super) fn repair(segment: &Segment<'_>, settings: &Settings, judged: &Judged
         accepted[i] = false;
     }
     let mut values = Vec::with_capacity(outliers.len());
-    for run in outliers.chunk_by(|a, b| a + 1 == *b) {
+    for (n, run) in outliers.chunk_by(|a, b| a + 1 == *b).enumerate() {
+        // A run costs some microseconds.
+        stop.check_at(64 * n)?;
         let fit = if matched {
             agreed(segment, judged, run, &list).and_then(|c| around(segment, &accepted, run, c)).map(|(fit, _)| fit)
         } else {
@@ -23,7 +31,7 @@ pub(super) fn repair(segment: &Segment<'_>, settings: &Settings, judged: &Judged
         };
         values.extend(run.iter().map(|&i| fit.as_ref().map_or(f64::NAN, |fit| fit.at(segment.t[i]))));
     }
-    values
+    Ok(values)
 }
 
 /// `best`: the candidate with the least sum of squares per degree of freedom among those with room on both sides.
@@ -40,7 +48,7 @@ fn best(segment: &Segment<'_>, accepted: &[bool], run: &[usize], list: &[Candida
 }
 
 /// `matched`: the candidate that both directions remember, where the paper allows it.
-fn agreed<'a>(segment: &Segment<'_>, judged: &Judged, run: &[usize], list: &'a [Candidate]) -> Option<&'a Candidate> {
+fn agreed<'a>(segment: &Segment<'_>, judged: &Part<'_>, run: &[usize], list: &'a [Candidate]) -> Option<&'a Candidate> {
     let (&first, &last) = (run.first()?, run.last()?);
     let [forward, _] = *judged.repair_code.get(last)?;
     let [_, backward] = *judged.repair_code.get(first)?;

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::CHUNK;
 use super::sorted::whole;
+use crate::math::pieces::{self, PIECE};
 use crate::math::sorted_four::SortedFour;
 use crate::math::sorted_window::SortedWindow;
 use crate::method::Segment;
@@ -33,12 +34,14 @@ pub(super) fn slope(segment: &Segment<'_>, width: usize, stop: &Stop) -> Result<
     })?;
     let slope = |i: usize| slopes[i.saturating_sub(width / 2).min(last)];
     let rise = |i: usize| if i == 0 { 0.0 } else { f64::midpoint(slope(i - 1), slope(i)) * (t[i] - t[i - 1]) };
-    let mut base: Vec<f64> = (0..n).into_par_iter().with_min_len(CHUNK).map(rise).collect();
-    stop.check()?;
+    let mut base: Vec<f64> = pieces::collect(n, &|| stop.check(), rise)?;
     let mut height = 0.0;
-    for base in &mut base {
-        height += *base;
-        *base = height;
+    for piece in base.chunks_mut(PIECE) {
+        stop.check()?;
+        for base in piece {
+            height += *base;
+            *base = height;
+        }
     }
     Ok(Some(base))
 }

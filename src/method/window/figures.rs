@@ -148,7 +148,7 @@ mod tests {
             for (width, edge) in [(11, Edge::Shrink), (10, Edge::Reflect), (101, Edge::Zero)] {
                 let rule = Rule { center, spread, width, edge, detrend: false, pooled: false, feedback: false, k: 3.0 };
                 let windows = Windows::new(n, width, edge);
-                let x = windows.padded(y.clone(), -level(&y));
+                let x = windows.padded(y.clone(), -level(&y), &Stop::never()).unwrap();
                 let all = figures(&rule, &x, &windows, &Stop::never()).unwrap();
                 for begin in (0..n).step_by(CHUNK) {
                     let mut single = Statistics::new(&rule);

@@ -3,8 +3,10 @@
 use std::ops::Range;
 
 use crate::math::order::median;
+use crate::math::pieces::PIECE;
 use crate::method::shared;
 use crate::param::Settings;
+use crate::stop::{Stop, Stopped};
 
 /// What a window holds beyond the ends of its segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,21 +89,24 @@ impl Windows {
     }
 
     /// The samples with what is put before and after them; `zero` is the value that counts as zero.
-    pub(in crate::method) fn padded(&self, samples: Vec<f64>, zero: f64) -> Vec<f64> {
+    pub(in crate::method) fn padded(&self, samples: Vec<f64>, zero: f64, stop: &Stop) -> Result<Vec<f64>, Stopped> {
         if self.edge == Edge::Shrink {
-            return samples;
+            return Ok(samples);
         }
         let after = self.width - 1 - self.pad;
         let mut x = Vec::with_capacity(self.pad + self.len + after);
         x.resize(self.pad, zero);
-        x.extend(samples);
+        for piece in samples.chunks(PIECE) {
+            stop.check()?;
+            x.extend_from_slice(piece);
+        }
         x.resize(self.pad + self.len + after, zero);
         if self.edge == Edge::Reflect {
             for at in (0..self.pad).chain(self.pad + self.len..x.len()) {
                 x[at] = x[self.pad + self.mirrored(at)];
             }
         }
-        x
+        Ok(x)
     }
 
     /// Puts `value` in the place of sample `c` and of its mirror images; says in how many places.
@@ -146,6 +151,10 @@ pub(in crate::method) fn level(y: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
+    fn padded(windows: &Windows, samples: &[f64], zero: f64) -> Vec<f64> {
+        windows.padded(samples.to_vec(), zero, &Stop::never()).unwrap()
+    }
+
     #[test]
     fn even_windows_reach_one_further_back() {
         let w = Windows::new(30, 10, Edge::Shrink);
@@ -160,14 +169,14 @@ mod tests {
     fn reflection_does_not_repeat_the_end() {
         let x = [1.0, 2.0, 3.0, 4.0];
         let w = Windows::new(4, 5, Edge::Reflect);
-        assert_eq!(w.padded(x.to_vec(), 0.0), [3.0, 2.0, 1.0, 2.0, 3.0, 4.0, 3.0, 2.0]);
+        assert_eq!(padded(&w, &x, 0.0), [3.0, 2.0, 1.0, 2.0, 3.0, 4.0, 3.0, 2.0]);
         let w = Windows::new(3, 11, Edge::Reflect);
-        let padded = w.padded([1.0, 2.0, 3.0].to_vec(), 0.0);
-        assert_eq!(padded, [2.0, 1.0, 2.0, 3.0, 2.0, 1.0, 2.0, 3.0, 2.0, 1.0, 2.0, 3.0, 2.0]);
-        let mut changed = padded;
+        let values = padded(&w, &[1.0, 2.0, 3.0], 0.0);
+        assert_eq!(values, [2.0, 1.0, 2.0, 3.0, 2.0, 1.0, 2.0, 3.0, 2.0, 1.0, 2.0, 3.0, 2.0]);
+        let mut changed = values;
         assert_eq!(w.replace(&mut changed, 1, 9.0), 7);
         assert_eq!(changed.iter().filter(|v| **v == 9.0).count(), 7);
         let w = Windows::new(3, 4, Edge::Zero);
-        assert_eq!(w.padded([1.0, 2.0, 3.0].to_vec(), -7.0), [-7.0, -7.0, 1.0, 2.0, 3.0, -7.0]);
+        assert_eq!(padded(&w, &[1.0, 2.0, 3.0], -7.0), [-7.0, -7.0, 1.0, 2.0, 3.0, -7.0]);
     }
 }

@@ -1,8 +1,9 @@
 //! Windows that test each of their samples against a polynomial fitted to all of them.
 
-use rayon::prelude::*;
+use std::ops::Range;
 
-use super::{CHUNK, Verdict, geometry, sweep};
+use super::{Verdict, geometry, sweep};
+use crate::math::pieces;
 use crate::math::window_fit::WindowFit;
 use crate::method::{Judged, Segment, reaches};
 use crate::stop::{Stop, Stopped};
@@ -34,11 +35,12 @@ pub(in crate::method) fn judge(rule: &PolyRule, segment: &Segment<'_>, stop: &St
         return Ok(Judged::unchecked(n));
     }
     let level = geometry::level(segment.y);
-    let mut fits = Fits::new(rule, segment);
+    let check = || stop.check();
+    let mut fits = Fits::new(rule, segment, stop)?;
     let mut run = Run {
-        x: segment.y.par_iter().with_min_len(CHUNK).map(|y| y - level).collect(),
-        replaced: (0..n).into_par_iter().with_min_len(CHUNK).map(|_| f64::NAN).collect(),
-        judged: Judged::unchecked(n),
+        x: pieces::collect(n, &check, |i| segment.y[i] - level)?,
+        replaced: pieces::collect(n, &check, |_| f64::NAN)?,
+        judged: Judged::unchecked_many(n, stop)?,
     };
     // Most windows hold no wild point: they are worked out on the data as given, in parallel, and only those that
     // flag something or hold a replaced sample once more in their turn.
@@ -68,7 +70,7 @@ pub(in crate::method) fn judge(rule: &PolyRule, segment: &Segment<'_>, stop: &St
             }
         }
     }
-    Ok(run.end(level))
+    run.end(level, stop)
 }
 
 /// The polynomials of the windows.
@@ -88,27 +90,29 @@ struct Fits<'a> {
 }
 
 impl<'a> Fits<'a> {
-    fn new(rule: &PolyRule, segment: &Segment<'a>) -> Self {
+    fn new(rule: &PolyRule, segment: &Segment<'a>, stop: &Stop) -> Result<Self, Stopped> {
         let width = rule.width.min(segment.len());
         let mut count = 0;
-        let mut uneven = vec![0];
-        uneven.extend(segment.t.windows(2).map(|t| {
+        let mut uneven = Vec::with_capacity(segment.len());
+        uneven.push(0);
+        for (i, t) in segment.t.windows(2).enumerate() {
+            stop.check_at(i)?;
             // Times are as exact as their digits: a step of a billionth more is none.
             let slack = 1e-9 * segment.interval + 4.0 * f64::EPSILON * t[1].abs().max(t[0].abs());
             count += u32::from((t[1] - t[0] - segment.interval).abs() > slack);
-            count
-        }));
+            uneven.push(count);
+        }
         let blank = WindowFit::even(width, rule.order);
-        Self {
+        Ok(Self {
             segment: *segment,
-            zero: segment.zero(),
+            zero: segment.zero(stop)?,
             k: rule.k,
             width,
             fit: blank.clone(),
             even: true,
             blank,
             uneven: std::sync::Arc::new(uneven),
-        }
+        })
     }
 
     /// Fits the window that begins at `start`: the largest residual, and the tolerance.
@@ -168,13 +172,16 @@ impl Run {
         feedback
     }
 
-    fn end(mut self, level: f64) -> Judged {
-        self.judged.expected.par_iter_mut().with_min_len(CHUNK).for_each(|p| *p += level);
-        if self.replaced.iter().any(|v| !v.is_nan()) {
-            self.replaced.par_iter_mut().with_min_len(CHUNK).for_each(|v| *v += level);
+    fn end(mut self, level: f64, stop: &Stop) -> Result<Judged, Stopped> {
+        let check = || stop.check();
+        let add_level = |_: usize, values: &mut [f64]| values.iter_mut().for_each(|v| *v += level);
+        pieces::over(&mut self.judged.expected, &check, add_level)?;
+        let any = |piece: Range<usize>| self.replaced[piece].iter().any(|v| !v.is_nan());
+        if pieces::map(self.replaced.len(), &check, any)?.contains(&true) {
+            pieces::over(&mut self.replaced, &check, add_level)?;
             self.judged.own = self.replaced;
         }
-        self.judged
+        Ok(self.judged)
     }
 }
 

@@ -143,7 +143,7 @@ fn gating_again_is_judging_again_across_cuts_and_short_segments() {
         let mut again = judged(&settings);
         let key = method.gate(&settings).unwrap();
         settings.set("it", key, Value::Real(1.7)).unwrap();
-        again.gate(&y, 1.7);
+        again.gate(&y, 1.7, &Stop::never()).unwrap();
         let wanted = judged(&settings);
         assert_eq!((again.verdict.len(), &again.verdict), (122, &wanted.verdict));
         let bits = |v: &[f64]| v.iter().map(|h| h.to_bits()).collect::<Vec<_>>();

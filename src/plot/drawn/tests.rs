@@ -51,7 +51,7 @@ proptest! {
             let previous = before.map(|d| d.outcome.detection.as_ref());
             let detection = detect(&track, channel, &samples, setup, previous, &Stop::never()).unwrap();
             let outcome = settle(&track, channel, &samples, detection.into(), decisions, &Stop::never()).unwrap();
-            Drawn::after(outcome, &series, before)
+            Drawn::new(outcome, &series, before, &Stop::never()).unwrap()
         };
         let mut drawn = result(&setup, &decisions, None);
         for (what, amount) in steps {

@@ -2,6 +2,7 @@
 
 use super::{Detection, Place};
 use crate::repair;
+use crate::stop::{Stop, Stopped};
 use crate::track::{Channel, Series, Track, lost_samples};
 
 /// The missing samples just before a present one.
@@ -22,11 +23,12 @@ pub(super) fn gaps_to_fill(
     channel: &Channel,
     series: &Series<'_>,
     detection: &Detection,
-) -> Vec<GapPlaces> {
+    stop: &Stop,
+) -> Result<Vec<GapPlaces>, Stopped> {
     let with_rows = match detection.setup.repair.word(repair::FILL_GAPS.key) {
         "cells" => false,
         "rows" => true,
-        _ => return Vec::new(),
+        _ => return Ok(Vec::new()),
     };
     let room = if with_rows { channel.rows(track).saturating_mul(MOST_NEW_ROWS) } else { 0 };
     let own = channel.target.as_ref().map(|t| &*t.rows);
@@ -35,6 +37,7 @@ pub(super) fn gaps_to_fill(
     let mut gaps = Vec::new();
     for segment in &detection.segments {
         for before in segment.start + 1..segment.end {
+            stop.check_at(before)?;
             // Rows (of the target) after the present sample before the gap, up to the one after it.
             let (first, last) = (series.row(before - 1), series.row(before));
             let at = match own {
@@ -50,7 +53,7 @@ pub(super) fn gaps_to_fill(
             }
         }
     }
-    gaps
+    Ok(gaps)
 }
 
 /// The nominal interval of the rows that have a usable time.

@@ -89,7 +89,7 @@ fn near(a: f64, b: f64, largest: f64) -> bool {
 fn compare(record: &Record, id: &str, paper: bool) -> (usize, usize) {
     let series = Series::new(&record.t, &record.y);
     let whole = 0..series.len();
-    let sigma = noise::by_difference(&series, std::slice::from_ref(&whole))[0].max(0.5);
+    let sigma = noise::by_difference(&series, std::slice::from_ref(&whole), &Stop::never()).unwrap()[0].max(0.5);
     let settings = settings(id, paper, sigma);
     let method = method::find(id).unwrap();
     let over: Judged = judge_channel(method, &series, None, &settings, &Stop::never()).unwrap();

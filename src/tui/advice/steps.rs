@@ -1,13 +1,16 @@
 //! What one step of the active knob, up or down, does to the flags.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::error::Result;
+use crate::math::pieces;
 use crate::method::Verdict;
 use crate::param::Value;
 use crate::review::Decisions;
 use crate::session::{Detection, Setup};
-use crate::stop::Stop;
+use crate::stop::{Stop, Stopped};
+use crate::track::{Samples, Track};
 use crate::tui::model::{Knob, Model};
 use crate::tui::office::Judge;
 
@@ -58,8 +61,9 @@ impl Steps {
 pub(in crate::tui) struct StepsJob {
     setup: Setup,
     key: &'static str,
-    /// Row of each sample.
-    rows: Vec<u32>,
+    track: Arc<Track>,
+    channel: usize,
+    samples: Arc<Samples>,
     up: Option<(Value, Judge)>,
     down: Option<(Value, Judge)>,
 }
@@ -91,9 +95,15 @@ impl StepsJob {
             there.settings.set(param.key, param.key, next).ok()?;
             (next != value).then(|| (next, Judge::under(model, plan, there)))
         };
-        let series = state.samples.series(&model.track.channels[state.channel], &model.track.time);
-        let rows = (0..series.len()).map(|i| u32::try_from(series.row(i)).unwrap_or(u32::MAX)).collect();
-        Some(Self { setup: setup.clone(), key: param.key, rows, up: judge(1), down: judge(-1) })
+        Some(Self {
+            setup: setup.clone(),
+            key: param.key,
+            track: Arc::clone(&model.track),
+            channel: state.channel,
+            samples: Arc::clone(&state.samples),
+            up: judge(1),
+            down: judge(-1),
+        })
     }
 
     /// Does it, compared with what the method says `now`.
@@ -101,14 +111,21 @@ impl StepsJob {
         let step = |to: &Option<(Value, Judge)>| -> Result<Option<Step>> {
             let Some((value, judge)) = to else { return Ok(None) };
             let there = judge.detection(stop)?;
-            stop.check()?;
-            let rows = |from: &Detection, to: &Detection| {
-                let pairs = from.judged.verdict().iter().zip(to.judged.verdict()).zip(&self.rows);
-                let new = pairs.filter(|((a, b), _)| **a != Verdict::Outlier && **b == Verdict::Outlier);
-                new.map(|(_, row)| *row).collect::<Vec<u32>>()
-            };
-            Ok(Some(Step { value: *value, gained: rows(now, &there), lost: rows(&there, now) }))
+            let (gained, lost) = (self.rows(now, &there, stop)?, self.rows(&there, now, stop)?);
+            Ok(Some(Step { value: *value, gained, lost }))
         };
         Ok(Steps { setup: self.setup.clone(), key: self.key, up: step(&self.up)?, down: step(&self.down)? })
+    }
+
+    /// Rows of the samples that are flagged in `to` and not in `from`.
+    fn rows(&self, from: &Detection, to: &Detection, stop: &Stop) -> std::result::Result<Vec<u32>, Stopped> {
+        let series = self.samples.series(&self.track.channels[self.channel], &self.track.time);
+        let (from, to) = (from.judged.verdict(), to.judged.verdict());
+        let row = |at: usize| u32::try_from(series.row(at)).unwrap_or(u32::MAX);
+        let new = |piece: Range<usize>| {
+            let new = piece.filter(|&at| from[at] != Verdict::Outlier && to[at] == Verdict::Outlier);
+            new.map(row).collect::<Vec<u32>>()
+        };
+        Ok(pieces::map(from.len().min(to.len()), &|| stop.check(), new)?.concat())
     }
 }

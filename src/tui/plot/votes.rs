@@ -11,6 +11,7 @@ use super::paint::{Paint, right_of_margin};
 use super::pyramid::{Pyramid, Span};
 use super::scale::YScale;
 use crate::session::Ballot;
+use crate::stop::{Stop, Stopped};
 use crate::tui::theme::Theme;
 
 /// The widget of votes: the most votes of a sample in each column, with a dotted line at half of the methods.
@@ -36,9 +37,11 @@ fn span(ballot: &Ballot, position: usize) -> Span {
 
 impl VotesPlot<'_> {
     /// The extremes of the votes.
-    #[must_use]
-    pub fn pyramid(ballot: &Ballot) -> Pyramid {
-        Pyramid::build_spans(ballot.samples(), |i| span(ballot, i))
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for them any more.
+    pub fn pyramid(ballot: &Ballot, stop: &Stop) -> Result<Pyramid, Stopped> {
+        Pyramid::build_spans_unless(ballot.samples(), |i| span(ballot, i), stop)
     }
 }
 
