@@ -10,7 +10,7 @@ use wildpoint::error::{Error, Result};
 use wildpoint::report::Summary;
 use wildpoint::session::{Analysed, Session, open_all};
 use wildpoint::stop::Stop;
-use wildpoint::track::{Source, load};
+use wildpoint::track::{Source, Wanted, load};
 use wildpoint::tui::config::{self, Config};
 use wildpoint::tui::files::is_session;
 use wildpoint::tui::journal::folder;
@@ -84,7 +84,7 @@ fn opening(cli: &Cli) -> Result<Opening> {
     let source = match &cli.file {
         None => Source::demo(),
         Some(path) if is_session(path) => {
-            let opened = open_all(path, false)?;
+            let opened = open_all(path, false, Wanted::always())?;
             let file = Some(path.clone());
             return Ok(Opening { track: opened.track, session: opened.session, file, notes: opened.notes });
         }

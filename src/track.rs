@@ -21,6 +21,7 @@ mod load;
 mod names;
 mod notes;
 mod number;
+mod options;
 mod order;
 mod outputs;
 mod preview;
@@ -39,15 +40,17 @@ mod text;
 mod timing;
 mod tokens;
 mod told;
+mod wanted;
 mod waves;
 mod widen;
 
 pub use cells::Cells;
 pub use checks::RowChecks;
 pub use inert::inert;
-pub use load::{LoadOptions, load};
+pub use load::{load, load_while};
 pub use number::number_text;
 pub(crate) use number::{Cell, Reading};
+pub use options::LoadOptions;
 pub use outputs::Outputs;
 #[cfg(test)]
 pub(crate) use outputs::faults;
@@ -59,6 +62,7 @@ pub use series::{Samples, Series, lost_samples};
 pub use targets::Target;
 pub(crate) use tokens::split;
 pub use told::{TimeUnit, Worded};
+pub use wanted::Wanted;
 pub use widen::{NewColumn, widen};
 
 /// Where the bytes of a record come from.

@@ -279,7 +279,7 @@ fn gating_again_is_judging_again() {
                 settings.set(id(*method), key, Value::Real(k)).expect("a legal multiplier");
                 let series = Series::new(&record.t, &record.y);
                 let again = record.judge(*method, &settings);
-                let turned = gated.regated(&series.y, k).expect("it gates");
+                let turned = gated.regated(&series.y, k, &Stop::never()).expect("nobody stops it").expect("it gates");
                 let tolerance: Vec<f64> = (0..series.len()).filter_map(|i| turned.tolerance(i)).collect();
                 let verdict = turned.verdict().to_vec();
                 let turned = Judged { verdict, tolerance, expected: turned.expected().to_vec(), ..Judged::default() };

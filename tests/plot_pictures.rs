@@ -5,6 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 use wildpoint::plot::{Histogram, Steps};
+use wildpoint::stop::Stop;
 use wildpoint::track::Series;
 use wildpoint::tui::plot::*;
 use wildpoint::tui::theme::{ColorDepth, Theme};

@@ -1,48 +1,219 @@
-//! How soon a method notices that nobody waits for it: what matters is how much it does between two looks.
+//! How soon work notices that nobody waits for it: what matters is how much it does between two looks.
+
+#![expect(clippy::expect_used, reason = "a test that cannot read its own data may say so by ending")]
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
+use wildpoint::error::Error;
 use wildpoint::method::{METHODS, Method, Rate, judge_segments, noise, segments};
 use wildpoint::param::Settings;
+use wildpoint::plot::Drawn;
+use wildpoint::repair::{REPAIRS, Way};
+use wildpoint::review::Decisions;
+use wildpoint::session::{Ballot, Detection, Preset, Setup, detect, method_of_id, settle};
 use wildpoint::stop::{Stop, Stopped};
-use wildpoint::track::Series;
+use wildpoint::track::{LoadOptions, Samples, Series, Source, Track, Wanted, load, load_while};
 
 #[path = "../benches/record/mod.rs"]
 mod record;
 
 use record::Record;
 
-/// More samples than this are not worked on between two looks.
-const MOST: u64 = 16_384;
+/// Samples in a piece of work: a pass over a record looks before each.
+const PIECE: usize = 16_384;
 
-/// Judges with scales that are known, as the worker does after they are.
+/// Enough pieces that what is looked at besides counts for nothing.
+const N: usize = 8 * PIECE;
+
+const PLENTY: u64 = 1 << 40;
+
+/// How often `work` looks. It must end at whichever look says that it is no longer wanted, too.
+fn looks<T>(name: &str, work: impl Fn(&Stop) -> Result<T, Stopped>) -> u64 {
+    let left = Arc::new(AtomicU64::new(PLENTY));
+    assert!(work(&Stop::after_looks(Arc::clone(&left))).is_ok(), "{name}");
+    let looks = PLENTY - left.load(Ordering::Relaxed);
+    for share in [0, 1, 2, 3] {
+        let left = Arc::new(AtomicU64::new(looks * share / 4));
+        assert!(work(&Stop::after_looks(left)).is_err(), "{name}: {share}/4 of {looks}");
+    }
+    looks
+}
+
+/// How many times `work` goes over all samples, by its looks; at least `passes`.
+fn goes_over(name: &str, passes: u64, work: impl Fn(&Stop) -> Result<(), Stopped>) {
+    let seen = looks(name, work) / (N / PIECE) as u64;
+    assert!(seen >= passes, "{name}: looks in {seen} passes over the samples, and makes {passes}");
+}
+
+/// Judges with scales that are known.
 fn judge(record: &Record, method: &dyn Method, stop: &Stop) -> Result<(), Stopped> {
     let settings = Settings::defaults(method.about().params);
     let series = Series::new(&record.t, &record.y);
-    let ranges = segments(&series, &settings, stop)?;
-    let scales = noise::scales(&series, &ranges, &settings, stop)?;
+    let whole = 0..series.len();
+    let scales = [noise::Scales { sigma: 1.0, floor: 0.0 }];
     let rate = Rate { t: &record.t, y: &record.rate };
-    judge_segments(method, &series, (&ranges, &scales), Some(rate), &settings, stop).map(|_| ())
+    judge_segments(method, &series, (std::slice::from_ref(&whole), &scales), Some(rate), &settings, stop).map(|_| ())
+}
+
+/// Passes that each method makes over its samples at least, and that nothing else makes for it: where one of them does
+/// not look, the count is not reached. A trend of order 2 is fitted in three. The blocks of the predictors are much
+/// shorter than a piece, so of them only the run itself is counted.
+const PASSES: [(&str, u64); 19] = [
+    // The bound on zero, positions, fit 1, residuals, moments 2, flags, what is out, 3 lists without it; again from the
+    // fit on until nothing is new; trend, mean, tolerances, verdicts; bounds.
+    ("wright", 18),
+    ("trend-wright", 30),
+    ("chauvenet", 30),
+    ("romanovsky", 20),
+    ("grubbs", 20),
+    ("gesd", 20),
+    ("odd-even", 30),
+    // Slopes 2, rises, their sum, what is left, figures 1 to 2, the bound on zero, the pooled floor, the pass itself 4.
+    ("mean-window", 11),
+    ("median-window", 11),
+    // The same without the last four; expected values, scales, infinities and the gate instead.
+    ("hampel", 12),
+    // Bound on zero, steps 4, level, replaced, nothing said 2, the windows 16, in order 64, level, own.
+    ("poly-window", 88),
+    // Points, residuals 16, scales 16, the pooled floor, zero, nothing said 2, the pass itself 4, bounds.
+    ("template", 41),
+    ("five-point", 32),
+    ("alpha-beta-gamma", 32),
+    ("adaptive", 32),
+    // The integral, what is left, the medians 4, back again, differences, center, spread, zero, scales, infinities, gate.
+    ("matched", 14),
+    // Once: zero, level, nothing. Each of 2 passes: medians 6, differences, steps, sum, drift 2, center, spread, flags.
+    ("diff-median", 29),
+    // Two runs of 32, and in each nothing said; the nearer, verdicts, codes, tolerances, bounds.
+    ("two-sided", 71),
+    ("kalman", 64),
+];
+
+#[test]
+fn every_method_looks_in_every_pass_and_ends_at_the_first_look_that_says_so() {
+    let record = Record::new(N, 7);
+    for method in METHODS {
+        let id = method.about().id;
+        let passes = PASSES.iter().find(|p| p.0 == id).map(|p| p.1).expect("a row of the table");
+        goes_over(id, passes, |stop| judge(&record, *method, stop));
+    }
 }
 
 #[test]
-fn every_method_looks_often_and_ends_at_the_first_look_that_says_so() {
-    const PLENTY: u64 = 1 << 40;
-    let n = 100_000;
-    let record = Record::new(n, 7);
-    for method in METHODS {
-        let id = method.about().id;
-        let left = Arc::new(AtomicU64::new(PLENTY));
-        assert_eq!(judge(&record, *method, &Stop::after_looks(Arc::clone(&left))), Ok(()), "{id}");
-        let looks = PLENTY - left.load(Ordering::Relaxed);
-        assert!(looks * MOST >= n as u64, "{id}: {looks} looks at {n} samples");
-        for share in [0, 1, 2, 3] {
-            let left = Arc::new(AtomicU64::new(looks * share / 4));
-            assert_eq!(judge(&record, *method, &Stop::after_looks(left)), Err(Stopped), "{id}: {share}/4 of {looks}");
-        }
+fn cuts_and_scales_are_looked_for_in_pieces() {
+    let record = Record::new(N, 7);
+    let series = Series::new(&record.t, &record.y);
+    let whole = 0..series.len();
+    let all = std::slice::from_ref(&whole);
+    let settings = Settings::defaults(METHODS[0].about().params);
+    goes_over("cuts", 1, |stop| segments(&series, &settings, stop).map(|_| ()));
+    // The largest value, and the smallest movement.
+    goes_over("floor", 2, |stop| noise::auto_floor(&series, all, stop).map(|_| ()));
+    // Losses, differences, their median, what is left, its median, the middle, and what lies within, at least twice.
+    goes_over("differences", 8, |stop| noise::by_difference(&series, all, stop).map(|_| ()));
+    // The elimination twice, the mean, the deviation.
+    goes_over("spline", 4, |stop| noise::by_spline(&series, all, stop).map(|_| ()));
+}
+
+/// A record of one channel.
+fn track() -> Track {
+    let record = Record::new(N, 7);
+    let mut track = load(&Source::demo(), &LoadOptions::default()).expect("the demonstration record");
+    track.rows = N;
+    track.time.seconds = record.t;
+    track.channels.truncate(1);
+    track.channels[0].values = record.y;
+    track.truth = None;
+    track
+}
+
+fn detected(
+    track: &Track,
+    samples: &Samples,
+    setup: &Setup,
+    before: Option<&Detection>,
+    stop: &Stop,
+) -> Option<Detection> {
+    match detect(track, &track.channels[0], samples, setup, before, stop) {
+        Ok(detection) => Some(detection),
+        Err(Error::Stopped) => None,
+        Err(e) => panic!("{e}"),
     }
+}
+
+#[test]
+fn what_follows_the_method_looks_too() {
+    let track = track();
+    let channel = &track.channels[0];
+    let samples = Samples::of(channel, &track.time);
+    let series = samples.series(channel, &track.time);
+    let mut setup = Setup::new(method_of_id("hampel").expect("it is there"), Preset::Default);
+    let found = Arc::new(detected(&track, &samples, &setup, None, &Stop::never()).expect("nobody stops it"));
+    let mut turned = setup.clone();
+    turned.set_text("k", "4.5").expect("a multiplier");
+    goes_over("another multiplier", 1, |stop| {
+        detected(&track, &samples, &turned, Some(&found), stop).map(|_| ()).ok_or(Stopped)
+    });
+    for repair in REPAIRS {
+        setup.repair.set_text("repair", "method", repair.id).expect("a repair");
+        let found = Arc::new(found.with_repair(&setup));
+        // Marks and counts; interpolations need all that are accepted, too.
+        let passes = if matches!(repair.way, Way::Interpolate(_)) { 3 } else { 2 };
+        let settled = |stop: &Stop| settle(&track, channel, &samples, Arc::clone(&found), &Decisions::default(), stop);
+        goes_over(repair.id, passes, |stop| settled(stop).map(|_| ()));
+        // Kept, expected, band, repaired, after, residuals, and how often they occur.
+        let outcome = settled(&Stop::never()).expect("nobody stops it");
+        goes_over("drawing", 7, |stop| Drawn::new(outcome.clone(), &series, None, stop).map(|_| ()));
+    }
+    let verdicts = found.judged.verdict();
+    goes_over("votes", 5, |stop| {
+        let mut ballot = Ballot::new(N);
+        ballot.add("hampel", verdicts, stop)?;
+        ballot.agreed(1, stop).map(|_| ())
+    });
+}
+
+#[test]
+fn a_loader_looks_before_each_wave_and_ends_at_the_first_look_that_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Of the second the last row has a byte that is not UTF-8, and the third is read whole.
+    let rows: String = (0..400_000).map(|i| format!("{i}.5,{}.25\n", i % 977)).collect();
+    let wide: Vec<u8> = [0xff, 0xfe].into_iter().chain(rows.encode_utf16().flat_map(u16::to_le_bytes)).collect();
+    for (name, bytes) in [
+        ("plain.csv", rows.as_bytes().to_vec()),
+        ("latin.csv", [rows.as_bytes(), b"1e9,\xb0\n"].concat()),
+        ("wide.csv", wide),
+    ] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, &bytes).expect("a file");
+        let source = Source::File(path);
+        let load = |stop: &Stop| {
+            let still = || !stop.requested();
+            match load_while(
+                &source,
+                &LoadOptions { header: Some(false), ..LoadOptions::default() },
+                Wanted::as_long_as(&still),
+            ) {
+                Ok(track) => {
+                    assert!(track.rows >= 400_000, "{name}");
+                    Ok(())
+                }
+                Err(Error::Stopped) => Err(Stopped),
+                Err(e) => panic!("{name}: {e}"),
+            }
+        };
+        let waves = 400_000 * 12 / (4 * rayon_threads() * (256 << 10));
+        let rows = 400_000 / (1 << 16);
+        let seen = looks(name, load);
+        assert!(seen >= (waves + rows) as u64, "{name}: {seen} looks");
+    }
+}
+
+/// Threads that the waves of a loader are made for.
+fn rayon_threads() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
 
 /// Prints how long each method goes on after it is told to stop, at ten moments of its work.

@@ -87,7 +87,9 @@ impl Middle {
             let values = &values[piece];
             let within = values.iter().copied().filter(|v| *v >= start && *v < end).collect::<Vec<f64>>();
             let below = values.iter().filter(|v| **v < start).count();
-            (below, within, values.iter().filter(|v| **v >= end && **v <= end).count())
+            let up_to_end = values.iter().filter(|v| **v <= end).count();
+            let kept = within.len();
+            (below, within, up_to_end - below - kept)
         })?;
         let mut middle = Self { below: 0, within: Vec::new(), at_end: 0, end };
         for (below, within, at_end) in pieces {

@@ -124,9 +124,10 @@ fn judge(
         let z = smoother.smooth(&x)?;
         let center = median_of_many(n, |i| x[i] - z[i], &check)?;
         let tolerance = k * scale(MAD_TO_SIGMA * median_of_many(n, |i| (x[i] - z[i] - center).abs(), &check)?);
-        let both = verdict[judged_ones.clone()].par_chunks_mut(PIECE).zip(x[judged_ones.clone()].par_chunks_mut(PIECE));
-        let other = own[judged_ones.clone()].par_chunks_mut(PIECE).zip(z[judged_ones.clone()].par_chunks(PIECE));
-        let flag = |((verdict, x), (own, z)): ((&mut [Verdict], &mut [f64]), (&mut [f64], &[f64]))| {
+        let pieces =
+            verdict[judged_ones.clone()].par_chunks_mut(PIECE).zip(x[judged_ones.clone()].par_chunks_mut(PIECE));
+        let pieces = pieces.zip(own[judged_ones.clone()].par_chunks_mut(PIECE));
+        let new = pieces.zip(z[judged_ones.clone()].par_chunks(PIECE)).map(|(((verdict, x), own), z)| {
             check()?;
             let mut new = false;
             for (((verdict, x), own), z) in verdict.iter_mut().zip(x).zip(own).zip(z) {
@@ -136,8 +137,8 @@ fn judge(
                 }
             }
             Ok(new)
-        };
-        let new = both.zip(other).map(flag).try_reduce(|| false, |a, b| Ok(a | b))?;
+        });
+        let new = new.try_reduce(|| false, |a, b| Ok(a | b))?;
         pass += 1;
         if !new || pass == max_passes {
             let expected = pieces::collect(n, &check, |i| z[i] + level)?;

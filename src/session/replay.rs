@@ -10,7 +10,7 @@ use super::{
 };
 use crate::error::{Error, Result};
 use crate::stop::Stop;
-use crate::track::{LoadOptions, RowChecks, Samples, Source, Track, for_each_row, load};
+use crate::track::{LoadOptions, RowChecks, Samples, Source, Track, Wanted, for_each_row, load_while};
 
 /// A session with its record.
 #[derive(Debug)]
@@ -31,23 +31,23 @@ pub struct Opened {
 /// [`Error::Changed`] with the first difference; [`Error::Session`] for a decision that does not fit its row; and
 /// what reading and loading give.
 pub fn open(path: &Path, accept_changed: bool) -> Result<Opened> {
-    open_with(path, accept_changed, true)
+    open_with(path, accept_changed, true, Wanted::always())
 }
 
 /// [`open`] that loads every channel of the record, not only those of the session, and adds a plan with the default
 /// method for each of the others: for the workbench.
 ///
 /// # Errors
-/// As [`open`].
-pub fn open_all(path: &Path, accept_changed: bool) -> Result<Opened> {
-    let mut opened = open_with(path, accept_changed, false)?;
+/// As [`open`]; [`Error::Stopped`] when the session is no longer wanted.
+pub fn open_all(path: &Path, accept_changed: bool, wanted: Wanted<'_>) -> Result<Opened> {
+    let mut opened = open_with(path, accept_changed, false, wanted)?;
     let others = Session::new(&opened.track, LoadOptions::default(), &Setup::standard());
     let known: Vec<String> = opened.session.plans.iter().map(|p| p.channel.clone()).collect();
     opened.session.plans.extend(others.plans.into_iter().filter(|p| !known.contains(&p.channel)));
     Ok(opened)
 }
 
-fn open_with(path: &Path, accept_changed: bool, only_planned: bool) -> Result<Opened> {
+fn open_with(path: &Path, accept_changed: bool, only_planned: bool, wanted: Wanted<'_>) -> Result<Opened> {
     let Read { mut session, texts, rows_line } = read_with_texts(path)?;
     let mut channels: Vec<String> = Vec::new();
     if only_planned {
@@ -59,10 +59,10 @@ fn open_with(path: &Path, accept_changed: bool, only_planned: bool) -> Result<Op
         }
     }
     let options = LoadOptions { channels, ..session.data.options.clone() };
-    let track = load(&session.data.source, &options).map_err(|e| of_session(path, e))?;
+    let track = load_while(&session.data.source, &options, wanted).map_err(|e| of_session(path, e))?;
     let mut notes = Vec::new();
     let changed = track.sha256 != session.data.sha256;
-    let misfits = misfits(&track, &session.plans, &texts)?;
+    let misfits = misfits(&track, &session.plans, &texts, wanted)?;
     if changed {
         let what = difference(&session, &track, misfits.first())?;
         if !accept_changed {
@@ -120,7 +120,12 @@ struct Misfit {
     what: String,
 }
 
-fn misfits(track: &Track, plans: &[Plan], texts: &[Vec<WrittenDecision>]) -> Result<Vec<Misfit>> {
+fn misfits(
+    track: &Track,
+    plans: &[Plan],
+    texts: &[Vec<WrittenDecision>],
+    wanted_by: Wanted<'_>,
+) -> Result<Vec<Misfit>> {
     // All decisions about a row, with the plan and the column they are about.
     let mut wanted: BTreeMap<usize, Vec<(usize, usize, &WrittenDecision)>> = BTreeMap::new();
     for (index, (plan, texts)) in plans.iter().zip(texts).enumerate() {
@@ -143,6 +148,9 @@ fn misfits(track: &Track, plans: &[Plan], texts: &[Vec<WrittenDecision>]) -> Res
         }
     }
     for_each_row(track, |row, cells| {
+        if row.is_multiple_of(Stop::STRIDE) && !wanted_by.still() {
+            return Err(Error::Stopped);
+        }
         for (plan, column, text) in wanted.get(&row).into_iter().flatten() {
             let value = cells.text(*column);
             if value != text.value.as_str() {

@@ -8,6 +8,7 @@ use flate2::read::MultiGzDecoder;
 use memchr::{memchr, memrchr};
 use sha2::{Digest, Sha256};
 
+use super::Wanted;
 use super::text::hex;
 
 /// Why a text cannot be read piece by piece.
@@ -77,7 +78,9 @@ impl Supply<'static> {
             (Self::Plain(hashed), length)
         })
     }
+}
 
+impl Supply<'_> {
     /// True when the file is gzipped.
     pub(crate) fn is_gzip(&self) -> bool {
         matches!(self, Self::Gzip(_))
@@ -105,6 +108,8 @@ pub(crate) struct Feed<'a> {
     /// Whether the text is to be looked at for what is no text, and whether it must be UTF-8.
     check: Option<Check>,
     ended: bool,
+    /// Asked before each read.
+    wanted: Wanted<'a>,
 }
 
 /// What a text must be.
@@ -130,12 +135,19 @@ impl Check {
 impl<'a> Feed<'a> {
     /// A text from memory, which was checked before.
     pub(crate) fn of(text: &'a [u8], line_end: u8) -> Self {
-        Self { supply: Supply::Bytes(text), tail: Vec::new(), line_end, check: None, ended: false }
+        let wanted = Wanted::always();
+        Self { supply: Supply::Bytes(text), tail: Vec::new(), line_end, check: None, ended: false, wanted }
     }
 
     /// A text whose lines end with a line feed.
     pub(crate) fn new(supply: Supply<'a>, check: Check) -> Self {
-        Self { supply, tail: Vec::new(), line_end: b'\n', check: Some(check), ended: false }
+        let wanted = Wanted::always();
+        Self { supply, tail: Vec::new(), line_end: b'\n', check: Some(check), ended: false, wanted }
+    }
+
+    /// The same, read only for as long as it is wanted.
+    pub(crate) fn while_wanted(self, wanted: Wanted<'a>) -> Self {
+        Self { wanted, ..self }
     }
 
     /// Reads at least so many bytes, if there are as many, that the next wave will start with.
@@ -151,8 +163,11 @@ impl<'a> Feed<'a> {
     }
 
     /// Puts the next wave of `size` bytes or a little more into `wave`; true for the last one. It ends with a line
-    /// end, unless it is the last.
+    /// end, unless it is the last. Fails when it is no longer wanted: who asks for the record knows.
     pub(crate) fn next(&mut self, wave: &mut Vec<u8>, size: usize) -> Result<bool, Unfit> {
+        if !self.wanted.still() {
+            return Err(Unfit::Unreadable);
+        }
         wave.clear();
         wave.append(&mut self.tail);
         let mut wanted = size;
@@ -246,7 +261,7 @@ mod tests {
             assert_eq!(supply.is_gzip(), gzip);
             let mut feed = Feed::new(supply, Check::Utf8);
             assert_eq!(waves(&mut feed, 2).unwrap().concat(), b"1,2\n3,4\n");
-            assert_eq!(feed.into_supply().sha256().unwrap(), super::super::text::sha256(bytes));
+            assert_eq!(feed.into_supply().sha256().unwrap(), super::super::text::sha256(bytes, Wanted::always()));
         }
     }
 }

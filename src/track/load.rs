@@ -15,40 +15,10 @@ use super::timing::{Timing, choose};
 use super::tokens::inner;
 use super::waves::{Failure, parse};
 use super::{
-    Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Fault, Faults, Source, TimeAxis, TimeFormat, TimeUnit,
-    Track, notes, printable, rows,
+    Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Fault, Faults, LoadOptions, Source, TimeAxis,
+    TimeFormat, Track, Wanted, notes, printable, rows,
 };
 use crate::error::{Error, Result};
-
-/// What the user tells about a file. What is not told is recognised.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct LoadOptions {
-    /// The time column, by name or as `#3`; `sample` for the sample number. Recognised: the column that looks most
-    /// like a time, otherwise the sample number.
-    pub time: Option<String>,
-    /// The channels, by name or as `#3`. None: every numeric column that is neither time nor truth.
-    pub channels: Vec<String>,
-    /// The column that tells several tracks in one table apart, by name or as `#3`. None: all rows are one track.
-    pub track: Option<String>,
-    /// The truth column. Recognised: the only column of 0 and 1 with `truth` in its name.
-    pub truth: Option<String>,
-    /// Cells that mean "no value", besides the usual ones; numbers are compared by value.
-    pub missing: Vec<String>,
-    /// What stands between two cells.
-    pub delimiter: Option<Delimiter>,
-    /// True when `1,5` means one and a half.
-    pub decimal_comma: Option<bool>,
-    /// The encoding of the text, where it is not UTF-16 with its mark.
-    pub encoding: Option<Encoding>,
-    /// Whether the first line names the columns.
-    pub header: Option<bool>,
-    /// False where quotes are ordinary characters.
-    pub quotes: Option<bool>,
-    /// Whether 1/2/2005 is in February. Needed where the file does not show it.
-    pub day_first: Option<bool>,
-    /// The unit of times that are numbers. Recognised: that of the column, otherwise seconds.
-    pub time_unit: Option<TimeUnit>,
-}
 
 /// Loads a record.
 ///
@@ -56,28 +26,45 @@ pub struct LoadOptions {
 /// [`Error::Io`] when the source cannot be read; [`Error::Input`] when it is no table of numbers, with the line and
 /// the way out; [`Error::Usage`] when a column of the options is not there.
 pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
+    load_while(source, options, Wanted::always())
+}
+
+/// [`load()`] that ends as soon as nobody waits for the record any more.
+///
+/// # Errors
+/// As [`load()`]; [`Error::Stopped`] when the record is no longer wanted.
+pub fn load_while(source: &Source, options: &LoadOptions, wanted: Wanted<'_>) -> Result<Track> {
+    let still = || if wanted.still() { Ok(()) } else { Err(Error::Stopped) };
     if let Source::File(path) = source
-        && let Some(track) = streamed(path, options)
+        && let Some(track) = streamed(path, options, wanted)
     {
+        still()?;
         return Ok(track);
     }
+    still()?;
     let path = path_of(source);
     let stored = stored(source)?;
+    still()?;
     let text = Text::of(&stored, &path, options.encoding)?;
+    still()?;
     let understood = Understood::of(&text, options, &path)?;
     let line_end = understood.head.layout.line_end;
+    let feed = |rows| Feed::of(rows, line_end).while_wanted(wanted);
     let (sha256, parsed) = rayon::join(
-        || sha256(&stored),
+        || sha256(&stored, wanted),
         || {
             let rows = &text.body()[understood.head.data_start..];
-            understood.parse(|| Ok((Feed::of(rows, line_end), rows.len() as u64)))
+            understood.parse(|| Ok((feed(rows), rows.len() as u64)))
         },
     );
+    still()?;
     let (parsed, _) = parsed.map_err(|failure| match failure {
         Failure::Open(quote) => open_quote(&path, quote),
         Failure::Unfit(_) => Error::input(&path, "it cannot be read", "copy or fetch the file again"),
     })?;
-    understood.track(source, sha256, parsed, options, &|| Ok(Feed::of(text.body(), line_end)))
+    let track = understood.track(source, sha256, parsed, (options, wanted), &|| Ok(feed(text.body())));
+    still()?;
+    track
 }
 
 /// What the head of a file tells of the whole.
@@ -164,7 +151,7 @@ impl Understood {
         source: &Source,
         sha256: String,
         (mut body, moments): Parsed,
-        options: &LoadOptions,
+        (options, wanted): (&LoadOptions, Wanted<'_>),
         again: Again<'_>,
     ) -> Result<Track> {
         let Self { head, timing, roles, path, .. } = self;
@@ -194,7 +181,7 @@ impl Understood {
         };
         let of_row = targets.as_ref().map(|t| t.of_row.as_slice());
         match (moments, of_row) {
-            (Some(moments), _) => take_times(&mut track, order(moments, clock, of_row), again)?,
+            (Some(moments), _) => take_times(&mut track, order(moments, clock, of_row, wanted), again)?,
             (None, Some(of_row)) => track.time.seconds = sample_numbers(of_row),
             (None, None) => {}
         }

@@ -1,5 +1,6 @@
 //! From moments to a time axis: the origin, seconds after it, and the rows that do not go forward.
 
+use super::Wanted;
 use super::axis::seconds_of;
 use super::calendar::{DAY, SECOND};
 use super::targets::NOBODY;
@@ -47,11 +48,11 @@ pub(crate) struct Ordered {
 /// usable row gets NaN. With `clock`, moments are times of day, and a step back of more than half a day is midnight.
 ///
 /// With `of_row` (for each row its target, or [`NOBODY`]) every target has times of its own; a row of nobody gets NaN
-/// and is no fault.
-pub(crate) fn order(moments: Moments, clock: bool, of_row: Option<&[u32]>) -> Ordered {
+/// and is no fault. What comes after it is no longer wanted is NaN.
+pub(crate) fn order(moments: Moments, clock: bool, of_row: Option<&[u32]>, wanted: Wanted<'_>) -> Ordered {
     match moments {
-        Moments::Exact(ns) => exact(ns, clock, &mut Lasts { of_row, lasts: Vec::new() }),
-        Moments::Float(seconds) => float(seconds, &mut Lasts { of_row, lasts: Vec::new() }),
+        Moments::Exact(ns) => exact(ns, clock, &mut Lasts { of_row, lasts: Vec::new(), wanted }),
+        Moments::Float(seconds) => float(seconds, &mut Lasts { of_row, lasts: Vec::new(), wanted }),
     }
 }
 
@@ -76,11 +77,20 @@ pub(crate) fn sample_numbers(of_row: &[u32]) -> Vec<f64> {
 struct Lasts<'a, T> {
     of_row: Option<&'a [u32]>,
     lasts: Vec<T>,
+    /// Asked at every [`STRIDE`]-th row.
+    wanted: Wanted<'a>,
 }
+
+/// Rows between two looks at whether the record is still wanted.
+const STRIDE: usize = 1 << 16;
 
 impl<T: Default + Clone> Lasts<'_, T> {
     /// What is kept for the target of `row`; none for a row of nobody.
     fn of(&mut self, row: usize) -> Option<&mut T> {
+        if row.is_multiple_of(STRIDE) && !self.wanted.still() {
+            // From here on all rows are those of nobody.
+            self.of_row = Some(&[]);
+        }
         let target = match self.of_row {
             None => 0,
             Some(of_row) => of_row.get(row).copied().filter(|t| *t != NOBODY)? as usize,
@@ -203,7 +213,12 @@ mod tests {
     #[test]
     fn what_does_not_go_forward_is_nan_and_counted() {
         let s = SECOND;
-        let ordered = order(Moments::Exact(vec![UNREADABLE, 5 * s, 6 * s, 6 * s, 4 * s, 6 * s, 7 * s]), false, None);
+        let ordered = order(
+            Moments::Exact(vec![UNREADABLE, 5 * s, 6 * s, 6 * s, 4 * s, 6 * s, 7 * s]),
+            false,
+            None,
+            Wanted::always(),
+        );
         assert_eq!(ordered.origin_ns, 5_000_000_000);
         let rows = |first: &[usize]| Rows { count: first.len(), first: first.to_vec() };
         assert_eq!((ordered.unreadable, ordered.repeated, ordered.backward), (rows(&[0]), rows(&[3, 5]), rows(&[4])));
@@ -214,7 +229,12 @@ mod tests {
     #[test]
     fn seconds_after_a_large_origin_are_those_after_zero() {
         let tenth = SECOND / 10;
-        let large = order(Moments::Exact((0..1000).map(|i| 1_700_000_000 * SECOND + i * tenth).collect()), false, None);
+        let large = order(
+            Moments::Exact((0..1000).map(|i| 1_700_000_000 * SECOND + i * tenth).collect()),
+            false,
+            None,
+            Wanted::always(),
+        );
         let expected: Vec<f64> = (0..1000).map(|i| format!("{}.{}", i / 10, i % 10).parse().unwrap()).collect();
         assert_eq!(large.seconds, expected);
     }
@@ -222,7 +242,8 @@ mod tests {
     #[test]
     fn times_of_day_pass_midnight_and_stragglers_stay_behind() {
         let h = 3600 * SECOND;
-        let ordered = order(Moments::Exact(vec![23 * h, 24 * h - 1, 1, 24 * h - 5, 2, 13 * h, 1]), true, None);
+        let ordered =
+            order(Moments::Exact(vec![23 * h, 24 * h - 1, 1, 24 * h - 5, 2, 13 * h, 1]), true, None, Wanted::always());
         let at = |ns: i64| since(ns, 23 * h);
         let expected = [0.0, at(24 * h - 1), at(24 * h + 1), f64::NAN, at(24 * h + 2), at(37 * h), at(48 * h + 1)];
         assert_eq!(format!("{:?}", ordered.seconds), format!("{expected:?}"));
@@ -231,7 +252,7 @@ mod tests {
 
     #[test]
     fn long_decimals_are_taken_as_doubles() {
-        let ordered = order(Moments::Float(vec![0.1, 0.1 + 0.2, f64::NAN, 0.2, 0.5]), false, None);
+        let ordered = order(Moments::Float(vec![0.1, 0.1 + 0.2, f64::NAN, 0.2, 0.5]), false, None, Wanted::always());
         assert_eq!(ordered.seconds[1], (0.1 + 0.2) - 0.1);
         assert_eq!((ordered.unreadable.count, ordered.backward.count, ordered.origin_ns), (1, 1, 100_000_000));
         assert!(ordered.seconds[3].is_nan() && ordered.seconds[4] == 0.4);

@@ -8,7 +8,7 @@ use std::rc::Rc;
 
 use flate2::read::MultiGzDecoder;
 
-use super::{LoadOptions, Source, Track, for_each_row, load};
+use super::{LoadOptions, Source, Track, Wanted, for_each_row, load_while};
 use crate::error::{Error, Result};
 
 /// What the loader makes of the first part of a file.
@@ -31,8 +31,8 @@ impl Preview {
     /// Loads the first `most` bytes of text of the file `path` under `options`.
     ///
     /// # Errors
-    /// As [`load()`].
-    pub fn of(path: &Path, options: &LoadOptions, most: u64) -> Result<Self> {
+    /// As [`load_while`].
+    pub fn of(path: &Path, options: &LoadOptions, most: u64, wanted: Wanted<'_>) -> Result<Self> {
         // Looked at before it is opened: a pipe would wait for its other end.
         let about = path.metadata().map_err(Error::io("read", path))?;
         if about.is_dir() {
@@ -46,16 +46,16 @@ impl Preview {
         if share < 1.0 {
             whole_lines(&mut bytes);
         }
-        Self::of_bytes(&bytes, options, about.len(), share).map_err(|e| renamed(e, path))
+        Self::of_bytes(&bytes, options, about.len(), share, wanted).map_err(|e| renamed(e, path))
     }
 
     /// [`Preview::of`] for a record that is in memory.
     ///
     /// # Errors
-    /// As [`load()`].
-    pub fn of_bytes(bytes: &[u8], options: &LoadOptions, size: u64, share: f64) -> Result<Self> {
+    /// As [`load_while`].
+    pub fn of_bytes(bytes: &[u8], options: &LoadOptions, size: u64, share: f64, wanted: Wanted<'_>) -> Result<Self> {
         let source = Source::BuiltIn { name: NAME, bytes: bytes.into() };
-        let track = load(&source, options)?;
+        let track = load_while(&source, options, wanted)?;
         let mut first = Vec::new();
         let ended = for_each_row(&track, |_, cells| {
             if first.len() == FIRST {
@@ -168,11 +168,11 @@ mod tests {
     #[test]
     fn a_small_file_is_known_whole_and_a_large_one_by_its_beginning() {
         let (_folder, path) = written("a.csv", rows(1000).as_bytes());
-        let preview = Preview::of(&path, &LoadOptions::default(), 1 << 20).unwrap();
+        let preview = Preview::of(&path, &LoadOptions::default(), 1 << 20, Wanted::always()).unwrap();
         assert_eq!((preview.rows(), preview.first.len()), ((1000, false), FIRST));
         assert_eq!(preview.first[2], ["000002", "002"]);
         // Rows of 11 bytes: a tenth of the file is about a tenth of the rows, all of them whole.
-        let preview = Preview::of(&path, &LoadOptions::default(), 1100).unwrap();
+        let preview = Preview::of(&path, &LoadOptions::default(), 1100, Wanted::always()).unwrap();
         let (rows, estimated) = preview.rows();
         assert!(estimated && (980..=1020).contains(&rows), "{rows}");
         assert_eq!(preview.track.rows, 99, "the last, which is cut, is no row");
@@ -184,18 +184,20 @@ mod tests {
         let mut packed = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
         packed.write_all(rows(20_000).as_bytes()).unwrap();
         let (_folder, path) = written("a.csv.gz", &packed.finish().unwrap());
-        let preview = Preview::of(&path, &LoadOptions::default(), 30_000).unwrap();
+        let preview = Preview::of(&path, &LoadOptions::default(), 30_000, Wanted::always()).unwrap();
         assert!(preview.rows().1 && preview.track.rows > 2000);
         let wide: Vec<u8> =
             [0xff, 0xfe].into_iter().chain(rows(1000).encode_utf16().flat_map(u16::to_le_bytes)).collect();
         let (_folder, path) = written("w.csv", &wide);
-        assert_eq!(Preview::of(&path, &LoadOptions::default(), 2_205).unwrap().track.rows, 99);
+        assert_eq!(Preview::of(&path, &LoadOptions::default(), 2_205, Wanted::always()).unwrap().track.rows, 99);
     }
 
     #[test]
     fn errors_name_the_file() {
         let (folder, path) = written("words.csv", b"a,b\nx,y\nz,w\n");
-        let error = |path: &Path| Preview::of(path, &LoadOptions::default(), 1 << 20).unwrap_err().to_string();
+        let error = |path: &Path| {
+            Preview::of(path, &LoadOptions::default(), 1 << 20, Wanted::always()).unwrap_err().to_string()
+        };
         assert!(error(&path).contains("words.csv:1"), "{}", error(&path));
         assert!(error(folder.path()).contains("folder"));
         assert!(error(&folder.path().join("gone")).contains("gone: cannot read"));

@@ -7,7 +7,7 @@ use super::feed::Feed;
 use super::head::open_quote;
 use super::text::{Text, path_of, sha256, stored};
 use super::tokens::{Layout, OpenQuote, Record, RecordKind, Records, Span, is_empty, line_end_of, split};
-use super::{Dialect, Track};
+use super::{Dialect, Track, Wanted};
 use crate::error::{Error, Result};
 
 /// Reads the source again and calls `f` with each data row (from 0) and its cells, in order.
@@ -36,7 +36,7 @@ pub fn for_each_row(track: &Track, mut f: impl FnMut(usize, &Cells<'_>) -> Resul
 /// [`Error::Input`] when they are not.
 pub(crate) fn unchanged(track: &Track) -> Result<Cow<'_, [u8]>> {
     let stored = stored(&track.source)?;
-    if sha256(&stored) != track.sha256 {
+    if sha256(&stored, Wanted::always()) != track.sha256 {
         return Err(Error::input(
             path_of(&track.source),
             "the file changed since it was loaded",

@@ -8,7 +8,7 @@ use super::feed::{Check, Feed, Supply, Unfit};
 use super::load::Understood;
 use super::text::Text;
 use super::waves::Failure;
-use super::{Encoding, LoadOptions, Source, Track};
+use super::{Encoding, LoadOptions, Source, Track, Wanted};
 use crate::error::Error;
 
 /// A file smaller than this is read whole.
@@ -21,29 +21,29 @@ const UNFIT: Failure = Failure::Unfit(Unfit::Unreadable);
 
 /// Loads the file at `path`. None where its head does not tell how the rest is to be read, and for whatever is wrong
 /// with it: reading it whole says what. A track is the one that reading the file whole gives.
-pub(super) fn streamed(path: &Path, options: &LoadOptions) -> Option<Track> {
+pub(super) fn streamed(path: &Path, options: &LoadOptions, wanted: Wanted<'_>) -> Option<Track> {
     if std::fs::metadata(path).ok().is_none_or(|m| !m.is_file() || m.len() < SMALLEST) {
         return None;
     }
     match options.encoding {
-        None | Some(Encoding::Utf8 { .. }) => match checked(path, Check::Utf8, options) {
+        None | Some(Encoding::Utf8 { .. }) => match checked(path, Check::Utf8, options, wanted) {
             // The first byte that is not UTF-8 may stand in the last row.
             Err(Failure::Unfit(Unfit::NotUtf8)) if options.encoding.is_none() => {
-                checked(path, Check::Bytes, options).ok()
+                checked(path, Check::Bytes, options, wanted).ok()
             }
             track => track.ok(),
         },
-        Some(Encoding::Latin1) => checked(path, Check::Bytes, options).ok(),
+        Some(Encoding::Latin1) => checked(path, Check::Bytes, options, wanted).ok(),
         Some(Encoding::Utf16 { .. }) => None,
     }
 }
 
 /// The file as a text that passes `check`.
-fn checked(path: &Path, check: Check, options: &LoadOptions) -> Result<Track, Failure> {
+fn checked(path: &Path, check: Check, options: &LoadOptions, wanted: Wanted<'_>) -> Result<Track, Failure> {
     let (understood, [mark, before]) = understood(path, check, options)?;
     let rows = || {
         let (supply, bytes) = Supply::open(path)?;
-        let mut feed = Feed::new(supply, check);
+        let mut feed = Feed::new(supply, check).while_wanted(wanted);
         feed.peek(mark + before)?;
         feed.skip(mark + before);
         Ok((feed, bytes))
@@ -52,14 +52,14 @@ fn checked(path: &Path, check: Check, options: &LoadOptions) -> Result<Track, Fa
     let sha256 = feed.into_supply().sha256().map_err(|_| UNFIT)?;
     let again = || {
         let (supply, _) = Supply::open(path).map_err(Error::io("read", path))?;
-        let mut feed = Feed::new(supply, check);
+        let mut feed = Feed::new(supply, check).while_wanted(wanted);
         let unreadable = |_| Error::input(path, "the file changed while it was loaded", "load it again");
         feed.peek(mark).map_err(unreadable)?;
         feed.skip(mark);
         Ok(feed)
     };
     let source = Source::File(path.to_path_buf());
-    understood.track(&source, sha256, parsed, options, &again).map_err(|_| UNFIT)
+    understood.track(&source, sha256, parsed, (options, wanted), &again).map_err(|_| UNFIT)
 }
 
 /// What the head tells, and the bytes of the byte order mark and of what stands before the rows.

@@ -2,6 +2,8 @@
 //! what comes of it is sent as messages.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use crossbeam_channel::Sender;
 
@@ -55,6 +57,8 @@ pub enum Task {
         /// What.
         request: Request,
     },
+    /// Nobody waits for what is being opened any more.
+    Abandon,
     /// The new model is in place: workers and journal begin anew.
     Begin,
     /// Say which of these are there.
@@ -105,6 +109,8 @@ pub fn is_session(path: &Path) -> bool {
 pub(super) struct Desk {
     looker: Worker<Glance>,
     results: Sender<Message>,
+    /// Which opening is awaited, by its ticket: any other is abandoned.
+    awaited: Arc<AtomicU64>,
     /// The list of recent files; none where no journal is kept either.
     recent: Option<PathBuf>,
 }
@@ -119,7 +125,7 @@ impl Desk {
             let _ = sender.send(Message::Files(News::Seen { glance, result }));
         });
         let recent = journal.and_then(Path::parent).map(|state| state.join("recent"));
-        Self { looker, results, recent }
+        Self { looker, results, awaited: Arc::default(), recent }
     }
 
     /// Begins a task; what comes of it is sent.
@@ -131,10 +137,12 @@ impl Desk {
                 self.looker.submit(glance);
             }
             Task::Open { ticket, request } => {
+                self.awaited.store(ticket, Ordering::Relaxed);
+                let stop = Stop::when_superseded(Arc::clone(&self.awaited), ticket);
                 let keep = request.again.then(|| open::Keep::of(model));
                 let look = Look { theme: model.theme, glyphs: model.glyphs };
                 self.answer(move || {
-                    Some(News::Opened { ticket, result: open::open(request, keep, look).map(Box::new) })
+                    Some(News::Opened { ticket, result: open::open(request, keep, look, &stop).map(Box::new) })
                 });
             }
             Task::Check(paths) => self.answer(move || {
@@ -149,6 +157,7 @@ impl Desk {
                 let _ = recent::remember(recent.as_deref()?, &path);
                 None
             }),
+            Task::Abandon => self.awaited.store(0, Ordering::Relaxed),
             // The loop does it, which owns workers and journal.
             Task::Begin => {}
         }

@@ -171,7 +171,7 @@ mod tests {
             let spread = |i: usize| ((i * 7919) % 104_729) as f64 - 50_000.0;
             let ties = |i: usize| ((i * 7919) % 7) as f64 - 3.0;
             let one = |_: usize| -1.5;
-            let tiny = |i: usize| if i % 3 == 0 { 0.0 } else { f64::from_bits((i % 5) as u64) };
+            let tiny = |i: usize| if i.is_multiple_of(3) { 0.0 } else { f64::from_bits((i % 5) as u64) };
             // The sample sees one value only, and the wrong one.
             let misleading = |i: usize| if i.is_multiple_of((n / SAMPLE).max(1)) { 1e9 } else { spread(i) };
             for value in [&spread as &(dyn Fn(usize) -> f64 + Sync), &ties, &one, &tiny, &misleading] {

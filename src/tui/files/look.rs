@@ -7,7 +7,7 @@ use super::is_session;
 use crate::error::Result;
 use crate::session;
 use crate::stop::Stop;
-use crate::track::{ColumnKind, Fault, LoadOptions, Preview, Series, Source, Track, printable};
+use crate::track::{ColumnKind, Fault, LoadOptions, Preview, Series, Source, Track, Wanted, printable};
 
 /// How much of a record is read.
 const MOST: u64 = 1 << 20;
@@ -47,12 +47,14 @@ impl Glance {
     /// [`crate::error::Error::Stopped`]; what keeps the file from being opened.
     pub fn look(&self, stop: &Stop) -> Result<Seen> {
         stop.check()?;
+        let still = || !stop.requested();
+        let wanted = Wanted::as_long_as(&still);
         match &self.source {
             Source::File(path) if path.is_dir() => Ok(Seen { lines: vec!["a folder".into()], ..Seen::default() }),
             Source::File(path) if is_session(path) => of_session(path),
-            Source::File(path) => Ok(of_record(&Preview::of(path, &self.options, MOST)?)),
+            Source::File(path) => Ok(of_record(&Preview::of(path, &self.options, MOST, wanted)?)),
             Source::BuiltIn { bytes, .. } => {
-                Ok(of_record(&Preview::of_bytes(bytes, &self.options, bytes.len() as u64, 1.0)?))
+                Ok(of_record(&Preview::of_bytes(bytes, &self.options, bytes.len() as u64, 1.0, wanted)?))
             }
         }
     }

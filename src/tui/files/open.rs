@@ -8,7 +8,8 @@ use super::super::{Look, Opening};
 use super::{Request, is_session};
 use crate::error::Result;
 use crate::session::{Session, Setup, open_all};
-use crate::track::{Source, Track, load};
+use crate::stop::Stop;
+use crate::track::{Source, Track, Wanted, load_while};
 
 /// What stays when the record that is open is loaded in another way.
 pub(super) struct Keep {
@@ -27,16 +28,18 @@ impl Keep {
 /// Loads what is asked for; with `keep`, setup and decisions of the session before stay where they fit.
 ///
 /// # Errors
-/// As [`load`] and [`open_all`].
-pub(super) fn open(request: Request, keep: Option<Keep>, look: Look) -> Result<Model> {
+/// As [`load_while`] and [`open_all`]; [`crate::error::Error::Stopped`] when nobody waits for it any more.
+pub(super) fn open(request: Request, keep: Option<Keep>, look: Look, stop: &Stop) -> Result<Model> {
+    let still = || !stop.requested();
+    let wanted = Wanted::as_long_as(&still);
     if let Source::File(path) = &request.source
         && is_session(path)
     {
-        let opened = open_all(path, false)?;
+        let opened = open_all(path, false, wanted)?;
         let file = Some(path.clone());
         return Ok(Opening { track: opened.track, session: opened.session, file, notes: opened.notes }.model(look));
     }
-    let track = load(&request.source, &request.options)?;
+    let track = load_while(&request.source, &request.options, wanted)?;
     let mut options = request.options;
     options.channels.clear();
     let mut session = Session::new(&track, options, &Setup::standard());
@@ -114,7 +117,7 @@ mod tests {
 
     fn opened(text: &str, options: LoadOptions, keep: Option<Keep>) -> Model {
         let source = Source::BuiltIn { name: "test", bytes: text.as_bytes().into() };
-        open(Request { source, options, again: keep.is_some() }, keep, look()).unwrap()
+        open(Request { source, options, again: keep.is_some() }, keep, look(), &Stop::never()).unwrap()
     }
 
     const TEXT: &str = "t,x,y\n0,1,5\n1,2,6\n2,-99,7\n3,4,8\n";

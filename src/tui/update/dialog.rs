@@ -100,19 +100,21 @@ fn keep(model: &mut Model, dialog: Dialog) -> Vec<Effect> {
 
 /// One level back.
 fn leave(model: &mut Model, dialog: Dialog) -> Vec<Effect> {
+    let mut abandoned = Vec::new();
     let back = match dialog {
         Dialog::Browser(_) | Dialog::Export(_) | Dialog::Unsaved(_) => None,
         Dialog::Loader(form) => form.back,
         Dialog::Waiting(waiting) => {
             model.say(Tone::Warning, format!("{} is not opened", waiting.name));
+            abandoned = effect(Task::Abandon);
             waiting.back
         }
         Dialog::Over(over) => over.back,
     };
-    match back {
-        Some(dialog) => keep(model, *dialog),
-        None => Vec::new(),
+    if let Some(dialog) = back {
+        model.overlay = Overlay::Files(dialog);
     }
+    abandoned
 }
 
 /// Asks whether a file may be written over by `again`.
