@@ -84,6 +84,8 @@ impl Parts {
                 kept += usize::from(v > low && v < high);
             }
             between.truncate(kept);
+            // Most of the room is not needed, and there are as many of these as pieces.
+            between.shrink_to_fit();
             // Where both are one value, it is counted once.
             let at_high = if low < high { len - up_to_low - kept - above } else { 0 };
             (below, up_to_low - below, between, at_high)

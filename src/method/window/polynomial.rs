@@ -18,15 +18,9 @@ pub(in crate::method) struct PolyRule {
     pub(in crate::method) k: f64,
 }
 
-/// What a window on the data as given says.
-#[derive(Debug, Clone, Copy, Default)]
-struct Quick {
-    /// Residual of its first sample: no later window tests that one.
-    first: f64,
-    tolerance: f64,
-    /// True when it flags any of its samples.
-    flags: bool,
-}
+/// What a window on the data as given says: the residual of its first sample, which no later window tests, and the
+/// tolerance, which is negative when it flags any of its samples. Zeros, which need no touching before they are written.
+type Quick = [f64; 2];
 
 /// Judges a segment by windows that begin at one sample after the other.
 pub(in crate::method) fn judge(rule: &PolyRule, segment: &Segment<'_>, stop: &Stop) -> Result<Judged, Stopped> {
@@ -44,17 +38,17 @@ pub(in crate::method) fn judge(rule: &PolyRule, segment: &Segment<'_>, stop: &St
     };
     // Most windows hold no wild point: they are worked out on the data as given, in parallel, and only those that
     // flag something or hold a replaced sample once more in their turn.
-    let mut quick = vec![Quick::default(); n + 1 - fits.width];
+    let mut quick = vec![[0.0; 2]; n + 1 - fits.width];
     sweep(&mut quick, stop, || fits.clone(), |fits, start| fits.quick(&run.x, start))?;
     // No window that begins after this holds a replaced sample.
     let mut touched: Option<usize> = None;
-    for (start, quick) in quick.iter().enumerate() {
+    for (start, &[first, tolerance]) in quick.iter().enumerate() {
         if start.is_multiple_of(Stop::STRIDE / 16) {
             stop.check()?;
         }
         let clean = touched.is_none_or(|last| last < start);
-        if clean && !quick.flags && start + fits.width < n {
-            run.keep(start, quick.first, quick.tolerance);
+        if clean && tolerance.is_sign_positive() && start + fits.width < n {
+            run.keep(start, first, tolerance);
             continue;
         }
         let window = start..start + fits.width;
@@ -134,7 +128,7 @@ impl<'a> Fits<'a> {
     fn quick(&mut self, x: &[f64], start: usize) -> Quick {
         let (largest, tolerance) = self.fit(x, start);
         let first = self.fit.residual().first().copied().unwrap_or(f64::NAN);
-        Quick { first, tolerance, flags: reaches(largest, tolerance) }
+        [first, tolerance.copysign(if reaches(largest, tolerance) { -1.0 } else { 1.0 })]
     }
 }
 
