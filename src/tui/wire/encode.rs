@@ -232,7 +232,8 @@ mod tests {
         buffer.set_string(3, 2, "12", Style::new().fg(Color::Indexed(245)));
         buffer.set_string(6, 2, "3", Style::new().fg(Color::Indexed(245)).add_modifier(Modifier::BOLD));
         let bytes = encoded(Buffer::empty(AREA).diff(&buffer).into_iter(), &mut Shown::of(AREA.width, AREA.height));
-        assert_eq!(bytes, "\x1b[3;4H\x1b[38;5;245m12\x1b[C\x1b[1m3\x1b[0m");
+        // The blank between them is written again: a byte, where the move takes three.
+        assert_eq!(bytes, "\x1b[3;4H\x1b[38;5;245m12 \x1b[1m3\x1b[0m");
     }
 
     #[test]
@@ -281,7 +282,7 @@ mod tests {
         }
         let bytes =
             |from: &Buffer, to: &Buffer| encoded(from.diff(to).into_iter(), &mut Shown::of(AREA.width, AREA.height));
-        assert_eq!(bytes(&blank, &buffer), "\x1b[1H\x1b[38;5;245ma\x1b[Cb\x1b[0m");
-        assert_eq!(bytes(&Buffer::empty(AREA), &buffer), "\x1b[1H\x1b[38;5;245ma\x1b[Cb\x1b[0m");
+        assert_eq!(bytes(&blank, &buffer), "\x1b[1H\x1b[38;5;245ma b\x1b[0m");
+        assert_eq!(bytes(&Buffer::empty(AREA), &buffer), "\x1b[1H\x1b[38;5;245ma b\x1b[0m");
     }
 }
