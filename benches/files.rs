@@ -157,7 +157,7 @@ fn peak() -> Option<f64> {
 /// The workbench before its first result.
 fn opened(track: Track, setup: &Setup) -> Model {
     let session = Session::new(&track, LoadOptions::default(), setup);
-    let opening = Opening { track, session, file: None, notes: Vec::new() };
+    let opening = Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() };
     let theme = Theme::choose(ColorDepth::Indexed256, false);
     let mut model = opening.model(Look { theme, glyphs: Glyphs::Unicode });
     model.size = (AREA.width, AREA.height);

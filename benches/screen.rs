@@ -47,7 +47,7 @@ fn workbench() -> Model {
     let track = record(10_000_000);
     let method = method_of_id("hampel").unwrap_or_else(|e| panic!("{e}"));
     let session = Session::new(&track, LoadOptions::default(), &Setup::new(method, Preset::Default));
-    let opening = Opening { track, session, file: None, notes: Vec::new() };
+    let opening = Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() };
     let theme = Theme::choose(ColorDepth::Indexed256, false);
     let mut model = opening.model(Look { theme, glyphs: Glyphs::Unicode });
     model.size = (AREA.width, AREA.height);

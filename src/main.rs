@@ -70,6 +70,8 @@ fn workbench(cli: &Cli) -> Result<Ended> {
     }
     let analysed = {
         let mut first = opening.session.clone();
+        // Of the channel that the frame shows.
+        first.plans.drain(..opening.own.iter().position(|own| *own).unwrap_or(0));
         first.plans.truncate(1);
         let analysed = Analysed::of(&first, &opening.track, &Stop::never())?;
         Summary::of(&opening.track, &first, &analysed).text()
@@ -84,9 +86,7 @@ fn opening(cli: &Cli) -> Result<Opening> {
     let source = match &cli.file {
         None => Source::demo(),
         Some(path) if is_session(path) => {
-            let opened = open_all(path, false, Wanted::always())?;
-            let file = Some(path.clone());
-            return Ok(Opening { track: opened.track, session: opened.session, file, notes: opened.notes });
+            return Ok(Opening::from((open_all(path, false, Wanted::always())?, path.clone())));
         }
         Some(path) => Source::File(path.clone()),
     };
@@ -96,7 +96,7 @@ fn opening(cli: &Cli) -> Result<Opening> {
     let mut options = cli.shared.load.options(None);
     options.channels.clear();
     let session = Session::new(&track, options, &setup);
-    Ok(Opening { track, session, file: None, notes: Vec::new() })
+    Ok(Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() })
 }
 
 /// The configuration that the command line asks for.

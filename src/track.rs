@@ -48,8 +48,8 @@ pub use cells::Cells;
 pub use checks::RowChecks;
 pub use inert::inert;
 pub use load::{load, load_while};
-pub use number::number_text;
 pub(crate) use number::{Cell, Reading};
+pub use number::{number_text, without_signed_zero};
 pub use options::LoadOptions;
 pub use outputs::Outputs;
 #[cfg(test)]

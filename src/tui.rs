@@ -12,7 +12,7 @@ use ratatui::crossterm::event::{Event, KeyEventKind, read};
 use ratatui::layout::Rect;
 
 use crate::error::Result;
-use crate::session::Session;
+use crate::session::{Opened, Session};
 use crate::stop::Stop;
 use crate::track::Track;
 use advice::Advise;
@@ -78,6 +78,15 @@ pub struct Opening {
     pub file: Option<PathBuf>,
     /// What the user should know at the start.
     pub notes: Vec<String>,
+    /// For each plan, whether that file has it, and goes on having it when it is saved again. Empty: all of them, where
+    /// there is a file.
+    pub own: Vec<bool>,
+}
+
+impl From<(Opened, PathBuf)> for Opening {
+    fn from((Opened { track, session, notes, own }, file): (Opened, PathBuf)) -> Self {
+        Self { track, session, file: Some(file), notes, own }
+    }
 }
 
 impl Opening {
@@ -87,6 +96,8 @@ impl Opening {
         let mut notes = self.track.notes.clone();
         notes.extend(self.notes);
         let mut model = Model::new(Arc::new(self.track), self.session, self.file, look.theme, look.glyphs);
+        model.channels.iter_mut().zip(&self.own).for_each(|(channel, own)| channel.touched = *own);
+        model.shown = self.own.iter().position(|own| *own).unwrap_or(0);
         if !notes.is_empty() {
             model.say(Tone::Warning, notes.join(" · "));
         }

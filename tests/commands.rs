@@ -38,7 +38,7 @@ impl Bench {
         let options = LoadOptions::default();
         let track = load(&Source::File(path), &options).unwrap();
         let session = Session::new(&track, options, &Setup::standard());
-        let opening = Opening { track, session, file: None, notes: Vec::new() };
+        let opening = Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() };
         let mut model = opening.model(Look { theme: Theme::mono(), glyphs: Glyphs::Unicode });
         let config = Config::of_text(text, Path::new("config.toml")).unwrap();
         model.keys = config.keys;

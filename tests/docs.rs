@@ -18,7 +18,7 @@ fn frame() -> Result<String, wildpoint::error::Error> {
     let options = LoadOptions::default();
     let track = load(&Source::demo(), &options)?;
     let session = Session::new(&track, options, &Setup::standard());
-    let opening = Opening { track, session, file: None, notes: Vec::new() };
+    let opening = Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() };
     still(opening, Look { theme: Theme::mono(), glyphs: Glyphs::Unicode }, (112, 32))
 }
 

@@ -28,7 +28,7 @@ fn model(glyphs: Glyphs) -> Model {
     let track = load(&Source::demo(), &LoadOptions::default()).unwrap();
     let session = Session::new(&track, LoadOptions::default(), &Setup::standard());
     let depth = if glyphs == Glyphs::Ascii { ColorDepth::Never } else { ColorDepth::Indexed256 };
-    let opening = Opening { track, session, file: None, notes: Vec::new() };
+    let opening = Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() };
     opening.model(Look { theme: Theme::choose(depth, false), glyphs })
 }
 

@@ -51,7 +51,7 @@ fn model(names: [&str; 3], glyphs: Glyphs, depth: ColorDepth, light: bool) -> Mo
     assert_eq!(track.channels.len(), 3);
     let setup = Setup::new(method_of_id("hampel").unwrap(), Preset::Default);
     let session = Session::new(&track, options, &setup);
-    let opening = Opening { track, session, file: None, notes: Vec::new() };
+    let opening = Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() };
     let mut model = opening.model(Look { theme: Theme::choose(depth, light), glyphs });
     judge(&mut model, 0);
     assert_eq!(model.state().drawn.as_ref().map(|d| d.outcome.counts.flagged), Some(1));

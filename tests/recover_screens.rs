@@ -17,7 +17,7 @@ use wildpoint::tui::{Look, Opening, text_of, view};
 fn question(found: Vec<Found>) -> String {
     let track = load(&Source::demo(), &LoadOptions::default()).unwrap();
     let session = Session::new(&track, LoadOptions::default(), &Setup::standard());
-    let opening = Opening { track, session, file: None, notes: Vec::new() };
+    let opening = Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() };
     let mut model = opening.model(Look { theme: Theme::mono(), glyphs: Glyphs::Ascii });
     model.overlay = Overlay::Recover(found);
     let area = Rect { x: 0, y: 0, width: 80, height: 24 };

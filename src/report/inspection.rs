@@ -8,7 +8,7 @@ use crate::method::noise;
 use crate::method::shared::MAX_GAP;
 use crate::param::Value;
 use crate::stop::{Stop, Stopped};
-use crate::track::{Delimiter, Encoding, Fault, Faults, Series, Track, printable};
+use crate::track::{Delimiter, Encoding, Fault, Faults, Series, Track, printable, without_signed_zero};
 
 /// The facts of a file.
 #[derive(Debug, Clone, Serialize)]
@@ -196,7 +196,8 @@ pub(super) fn short(x: f64) -> String {
     }
     let digits = if size >= 1.0 { 5_i32.saturating_sub(magnitude(size)) } else { 6 };
     let text = format!("{x:.*}", usize::try_from(digits.max(0)).unwrap_or(0));
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text };
+    without_signed_zero(text)
 }
 
 fn magnitude(x: f64) -> i32 {

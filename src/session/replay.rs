@@ -21,6 +21,8 @@ pub struct Opened {
     pub track: Track,
     /// What the user should know: decisions that no longer fit changed data, say.
     pub notes: Vec<String>,
+    /// For each plan of the session, whether its file has it; [`open_all`] adds those that it does not have.
+    pub own: Vec<bool>,
 }
 
 /// Reads the session at `path` and loads its record. The SHA-256, the number of rows, and the row, time and value
@@ -35,15 +37,24 @@ pub fn open(path: &Path, accept_changed: bool) -> Result<Opened> {
 }
 
 /// [`open`] that loads every channel of the record, not only those of the session, and adds a plan with the default
-/// method for each of the others: for the workbench.
+/// method for each of the others, all in the order of the record: for the workbench.
 ///
 /// # Errors
 /// As [`open`]; [`Error::Stopped`] when the session is no longer wanted.
 pub fn open_all(path: &Path, accept_changed: bool, wanted: Wanted<'_>) -> Result<Opened> {
     let mut opened = open_with(path, accept_changed, false, wanted)?;
+    opened.own.clear();
     let others = Session::new(&opened.track, LoadOptions::default(), &Setup::standard());
-    let known: Vec<String> = opened.session.plans.iter().map(|p| p.channel.clone()).collect();
-    opened.session.plans.extend(others.plans.into_iter().filter(|p| !known.contains(&p.channel)));
+    let mut own = std::mem::take(&mut opened.session.plans);
+    // Several plans of one channel stay together, in the order of the file.
+    for other in others.plans {
+        let (here, rest): (Vec<Plan>, Vec<Plan>) = own.into_iter().partition(|p| p.channel == other.channel);
+        own = rest;
+        opened.own.extend(if here.is_empty() { vec![false] } else { vec![true; here.len()] });
+        opened.session.plans.extend(if here.is_empty() { vec![other] } else { here });
+    }
+    opened.own.extend(own.iter().map(|_| true));
+    opened.session.plans.extend(own);
     Ok(opened)
 }
 
@@ -90,7 +101,8 @@ fn open_with(path: &Path, accept_changed: bool, only_planned: bool, wanted: Want
     }
     session.data.sha256.clone_from(&track.sha256);
     session.data.rows = track.rows;
-    Ok(Opened { session, track, notes })
+    let own = vec![true; session.plans.len()];
+    Ok(Opened { session, track, notes, own })
 }
 
 /// What loading the record of a session complained of, with the session it is about.

@@ -141,10 +141,26 @@ pub fn number_text(value: f64) -> String {
     }
 }
 
+/// A number that was rounded for people: without a sign where nothing but zeros is left of it, since -0.0 would say
+/// that there is something below zero.
+#[must_use]
+pub fn without_signed_zero(text: String) -> String {
+    let signed =
+        text.starts_with(['-', '+']) && !text.contains(|c: char| matches!(c, '1'..='9' | 'a'..='d' | 'f'..='z'));
+    if signed { text[1..].to_owned() } else { text }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn what_is_rounded_to_nothing_has_no_sign() {
+        let shown = |text: &str| without_signed_zero(text.to_owned());
+        assert_eq!(["-0.0", "+0.0", "-0", "-0e0"].map(shown), ["0.0", "0.0", "0", "0e0"]);
+        assert_eq!(["-0.1", "+0.1", "-1e-5", "-inf", "0.0"].map(shown), ["-0.1", "+0.1", "-1e-5", "-inf", "0.0"]);
+    }
 
     #[test]
     fn cells_hold_numbers_markers_or_text() {

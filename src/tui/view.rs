@@ -11,6 +11,7 @@ use super::action::{Action, Panel};
 use super::layout::{self, LEAST};
 use super::model::{Model, Overlay, Tone};
 use super::words;
+use crate::track::without_signed_zero;
 
 mod card;
 mod compare;
@@ -289,7 +290,8 @@ fn short(x: f64) -> String {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to small digits")]
     let digits = if size < 1.0 { 6 } else { (6.0 - size.log10().floor()).clamp(0.0, 6.0) as usize };
     let text = format!("{x:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text };
+    without_signed_zero(text)
 }
 
 #[cfg(test)]
@@ -301,6 +303,7 @@ mod tests {
         assert_eq!(["1,234,567", "999", "0"], [1_234_567, 999, 0].map(thousands).each_ref().map(String::as_str));
         assert_eq!(short(-3.870_912_345), "-3.870912");
         assert_eq!(short(30975.0), "30975");
+        assert_eq!([short(-0.0), short(-0.5)], ["0", "-0.5"]);
         assert_eq!(short(4.94e13), "4.94000e13");
         assert_eq!(fit("abcdef", 4), "abc…");
         assert_eq!(fit("ab", 4), "ab");

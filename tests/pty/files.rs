@@ -128,3 +128,53 @@ fn a_session_saved_under_another_name_is_among_the_recent_files() {
     terminal.keys("q");
     assert_eq!(terminal.end().0, 0);
 }
+
+#[test]
+fn a_session_that_is_opened_again_has_its_channel_in_its_place_and_no_other() {
+    let folder = folder();
+    let mut terminal = start(&folder, COMPACT);
+    terminal.keys("d");
+    terminal.wait_for("alt_m [m] (2/2)");
+    terminal.settle();
+    terminal.keys(":w alt.toml\r");
+    terminal.wait_for("saved alt.toml");
+    terminal.keys("q");
+    assert_eq!(terminal.end().0, 0);
+    let saved = folder.text("alt.toml");
+    assert_eq!(saved.matches("[[channel]]").count(), 1);
+    let mut terminal = Terminal::start(&folder.path(""), "alt.toml", COMPACT, &[]);
+    // The second of two, as when the record was opened; what the session is about is on the screen.
+    terminal.wait_for("alt_m [m] (2/2)");
+    terminal.settle();
+    terminal.keys("d");
+    terminal.wait_for("vx_mps [m/s] (1/2)");
+    terminal.settle();
+    terminal.keys("d");
+    terminal.wait_for("alt_m [m] (2/2)");
+    terminal.keys(":w again.toml\r");
+    terminal.wait_for("saved again.toml");
+    terminal.keys("q");
+    assert_eq!(terminal.end().0, 0);
+    assert!(folder.text("again.toml") == saved, "channels that were only looked at do not get into the session");
+}
+
+#[test]
+fn where_a_session_goes_is_shown_before_it_is_written_and_lies_beside_the_record() {
+    let folder = Folder::with_demo();
+    std::fs::create_dir(folder.path("tracks")).unwrap();
+    std::fs::rename(folder.path("demo.csv"), folder.path("tracks/demo.csv")).unwrap();
+    let mut terminal = Terminal::start(&folder.path(""), "tracks/demo.csv", COMPACT, &[]);
+    terminal.settle();
+    terminal.keys("a\x13");
+    terminal.wait_for("save as: tracks/demo.wild.toml");
+    assert!(!folder.path("tracks/demo.wild.toml").exists());
+    terminal.keys("\r");
+    terminal.wait_for("saved tracks/demo.wild.toml");
+    // Now it has its place: the next time it is not asked.
+    terminal.keys("r\x13");
+    terminal.wait_until("saved", |screen| !title(screen).contains("[+]"));
+    terminal.keys(":report\r");
+    terminal.wait_for("wrote tracks/demo.html");
+    terminal.keys("q");
+    assert_eq!(terminal.end().0, 0);
+}

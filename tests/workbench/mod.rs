@@ -40,7 +40,7 @@ impl Bench {
         let options = LoadOptions::default();
         let track = load(&Source::File(path), &options).unwrap();
         let session = Session::new(&track, options, &Setup::standard());
-        let opening = Opening { track, session, file: None, notes: Vec::new() };
+        let opening = Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() };
         let model = opening.model(Look { theme: Theme::choose(depth, false), glyphs });
         let mut bench = Self(model);
         bench.0.awaited = Some(0);

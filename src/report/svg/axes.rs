@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::Size;
 use crate::plot::{TimeTicks, ValueLabels, View};
-use crate::track::TimeAxis;
+use crate::track::{TimeAxis, without_signed_zero};
 
 /// Room left of the plot for labels.
 const LEFT: f64 = 62.0;
@@ -78,7 +78,7 @@ pub(super) enum Edge {
 
 /// A coordinate with a tenth of a unit.
 pub(super) fn c(value: f64) -> String {
-    let text = format!("{value:.1}");
+    let text = without_signed_zero(format!("{value:.1}"));
     let text = text.strip_suffix(".0").unwrap_or(&text);
     if text == "-0" { "0".into() } else { text.into() }
 }

@@ -7,7 +7,9 @@ use super::is_session;
 use crate::error::Result;
 use crate::session;
 use crate::stop::Stop;
-use crate::track::{ColumnKind, Fault, LoadOptions, Preview, Series, Source, Track, Wanted, printable};
+use crate::track::{
+    ColumnKind, Fault, LoadOptions, Preview, Series, Source, Track, Wanted, printable, without_signed_zero,
+};
 
 /// How much of a record is read.
 const MOST: u64 = 1 << 20;
@@ -148,7 +150,7 @@ fn rounded(n: usize) -> usize {
 
 fn short(x: f64) -> String {
     let text = format!("{x:.6}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    without_signed_zero(text.trim_end_matches('0').trim_end_matches('.').to_owned())
 }
 
 #[cfg(test)]

@@ -35,19 +35,17 @@ pub(super) fn open(request: Request, keep: Option<Keep>, look: Look, stop: &Stop
     if let Source::File(path) = &request.source
         && is_session(path)
     {
-        let opened = open_all(path, false, wanted)?;
-        let file = Some(path.clone());
-        return Ok(Opening { track: opened.track, session: opened.session, file, notes: opened.notes }.model(look));
+        return Ok(Opening::from((open_all(path, false, wanted)?, path.clone())).model(look));
     }
     let track = load_while(&request.source, &request.options, wanted)?;
     let mut options = request.options;
     options.channels.clear();
     let mut session = Session::new(&track, options, &Setup::standard());
     let Some(keep) = keep else {
-        return Ok(Opening { track, session, file: None, notes: Vec::new() }.model(look));
+        return Ok(Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() }.model(look));
     };
     let kept = carry(&keep.session, &mut session, &track);
-    let mut model = Opening { track, session, file: keep.file, notes: Vec::new() }.model(look);
+    let mut model = Opening { track, session, file: keep.file, notes: Vec::new(), own: Vec::new() }.model(look);
     model.channels.iter_mut().zip(&kept.plans).for_each(|(channel, kept)| channel.touched |= kept);
     // What was saved is a session on the record as it was loaded then.
     model.revision = u64::from(keep.unsaved || model.file.is_some() || kept.decisions > 0);

@@ -17,6 +17,7 @@ use super::paint::{Paint, right_of_margin};
 use super::pyramid::{Pyramid, Span};
 use super::scale::YScale;
 use crate::plot::residual_top;
+use crate::track::without_signed_zero;
 use crate::tui::theme::Theme;
 
 /// Samples per column of cells up to which each is drawn with its sign.
@@ -178,7 +179,7 @@ impl ResidualPlot<'_> {
 
 /// A ratio in few columns.
 pub(super) fn label(value: f64) -> String {
-    if value.abs() < 1000.0 { format!("{value:.1}") } else { format!("{value:.0}") }
+    without_signed_zero(if value.abs() < 1000.0 { format!("{value:.1}") } else { format!("{value:.0}") })
 }
 
 fn span(ratio: Option<f64>) -> Span {

@@ -11,12 +11,14 @@ use super::super::plot::ResidualPlot;
 use super::{dialog, prompt, queue};
 use crate::error::{Error, Result};
 use crate::plot::Drawn;
+use crate::session::folder_of;
 use crate::track::Source;
 
 pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
     Some(match action {
-        Action::Save => save(model, None, false, false),
-        Action::SaveAs => {
+        // Where it goes is shown before anything is written there for the first time.
+        Action::Save if model.file.is_some() => save(model, None, false, false),
+        Action::Save | Action::SaveAs => {
             let path = model.file.clone().unwrap_or_else(|| default_session(&model.track.source));
             prompt(model, PromptKind::SaveAs, &path.to_string_lossy())
         }
@@ -26,26 +28,32 @@ pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
     })
 }
 
-/// Where a session on this record is saved when nobody says where: in the current folder, since the record's own
-/// may not be the analyst's.
+/// Where a session on this record is saved when nobody says where.
 #[must_use]
 pub fn default_session(source: &Source) -> PathBuf {
-    PathBuf::from(format!("{}.wild.toml", stem(source)))
+    beside(source, OutputKind::Session.ending())
 }
 
 /// Where the cleaned file goes when nobody says where.
 #[must_use]
 pub(super) fn default_export(source: &Source) -> PathBuf {
-    PathBuf::from(format!("{}{}", stem(source), OutputKind::Cleaned.ending()))
+    beside(source, OutputKind::Cleaned.ending())
 }
 
 /// Where the report goes when nobody says where.
 pub(super) fn default_report(source: &Source) -> PathBuf {
-    PathBuf::from(format!("{}{}", stem(source), OutputKind::Report.ending()))
+    beside(source, OutputKind::Report.ending())
+}
+
+/// Where whatever is made of a record lies when nobody says where: beside the record, wherever the workbench was
+/// started; in the current folder for a record without one.
+pub(super) fn beside(source: &Source, ending: &str) -> PathBuf {
+    let folder = source.path().map(folder_of).filter(|f| f != Path::new(".")).unwrap_or_default();
+    folder.join(format!("{}{ending}", stem(source)))
 }
 
 /// The name of a record without folder and ending.
-pub(super) fn stem(source: &Source) -> String {
+fn stem(source: &Source) -> String {
     let name = match source {
         Source::File(path) => path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
         Source::BuiltIn { name, .. } => name.rsplit(':').next().unwrap_or(name).to_owned(),

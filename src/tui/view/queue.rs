@@ -12,7 +12,7 @@ use super::super::plot::{FlagState, Glyphs};
 use super::super::update::{mark_at, queue};
 use super::{NOT_JUDGED, clear, heading, several_days, thousands};
 use crate::plot::state;
-use crate::track::Series;
+use crate::track::{Series, without_signed_zero};
 
 /// Columns of the rows of a run and of its length.
 const ROWS: usize = 17;
@@ -135,7 +135,7 @@ fn time_text(model: &Model, series: &Series<'_>, i: usize, days: bool) -> String
 /// A ratio in seven columns, whatever its size.
 pub(super) fn ratio_text(ratio: f64) -> String {
     match ratio.abs() {
-        size if size < 1000.0 => format!("{ratio:+.1}"),
+        size if size < 1000.0 => without_signed_zero(format!("{ratio:+.1}")),
         size if size < 100_000.0 => format!("{ratio:+.0}"),
         _ => format!("{ratio:+.0e}"),
     }

@@ -1,25 +1,22 @@
 //! The dialog that writes files.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent};
 
 use super::super::super::files::Task;
 use super::super::super::message::{Effect, Output, OutputKind};
 use super::super::super::model::{Dialog, ExportForm, ExportRow, Model, Overlay, Tone};
-use super::super::files::stem;
+use super::super::files::beside;
 use super::super::overlay::edit;
 use super::{effect, keep};
 use crate::report::ReportForm;
-use crate::session::folder_of;
 
 /// Opens the dialog, with names beside the record; what was saved as a session keeps its name.
 pub(in super::super) fn dialog(model: &mut Model) -> Vec<Effect> {
-    let folder = model.track.source.path().map(folder_of).filter(|f| f != Path::new(".")).unwrap_or_default();
-    let stem = stem(&model.track.source);
     let row = |kind: OutputKind| {
         let session = model.file.clone().filter(|_| kind == OutputKind::Session);
-        let path = session.unwrap_or_else(|| folder.join(format!("{stem}{}", kind.ending())));
+        let path = session.unwrap_or_else(|| beside(&model.track.source, kind.ending()));
         ExportRow { kind, on: kind == OutputKind::Cleaned, path, there: false }
     };
     let form = ExportForm { rows: OutputKind::ALL.into_iter().map(row).collect(), choice: 0, typing: None };
