@@ -36,7 +36,13 @@ impl LineOfFive {
 pub const AHEAD: usize = 5 * LANES;
 
 /// Lines five points apart have their points in the same places of the ring: so many go side by side.
-const LANES: usize = 4;
+pub const LANES: usize = 4;
+
+/// A figure of lines five points apart.
+pub type Lanes = [f64; LANES];
+
+/// What stands in each place of the ring, one after the other.
+type Rows = [[f64; LANES + 1]; 5];
 
 impl LineOfFive {
     /// True when the oldest point stands first in the ring, as [`LineOfFive::ahead`] wants it.
@@ -48,28 +54,20 @@ impl LineOfFive {
 
     /// What [`LineOfFive::at`] would say of each of these points if the ones before it had been pushed, to the last
     /// bit: each sum runs over the places of the ring in their order, and what is worked out side by side are lines
-    /// five points apart, which have each place filled alike. The line must be [`LineOfFive::in_order`].
-    #[must_use]
+    /// five points apart, which have each place filled alike. Five times `said(s, values, variances)` is told of
+    /// the points `s`, `s + 5`, `s + 10` and `s + 15`. The line must be [`LineOfFive::in_order`].
     #[inline]
-    pub fn ahead(&self, t: &[f64; AHEAD], y: &[f64; AHEAD]) -> ([f64; AHEAD], [f64; AHEAD]) {
-        // Row `s`: what stands in place `s` of the ring, one after the other.
-        let rows = |ring: &[f64; 5], next: &[f64; AHEAD]| -> [[f64; LANES + 1]; 5] {
+    pub fn ahead(&self, t: &[f64; AHEAD], y: &[f64; AHEAD], mut said: impl FnMut(usize, Lanes, Lanes)) {
+        let rows = |ring: &[f64; 5], next: &[f64; AHEAD]| -> Rows {
             std::array::from_fn(|s| std::array::from_fn(|b| if b == 0 { ring[s] } else { next[5 * (b - 1) + s] }))
         };
         let (t, y) = (rows(&self.t, t), rows(&self.y, y));
-        let (mut values, mut variances) = ([0.0; AHEAD], [0.0; AHEAD]);
-        for s in 0..5 {
-            for b in 0..LANES {
-                // Places before `s` have got their next point already.
-                let place = |rows: &[[f64; LANES + 1]; 5], j: usize| rows[j][b + usize::from(j < s)];
-                let at = t[s][b + 1];
-                let level = place(&y, 0);
-                let x: [f64; 5] = std::array::from_fn(|j| place(&t, j) - at);
-                let v: [f64; 5] = std::array::from_fn(|j| place(&y, j) - level);
-                (values[5 * b + s], variances[5 * b + s]) = line(x, v, level);
-            }
-        }
-        (values, variances)
+        // With the place known to the compiler, all stays in registers.
+        side_by_side::<0>(&t, &y, &mut said);
+        side_by_side::<1>(&t, &y, &mut said);
+        side_by_side::<2>(&t, &y, &mut said);
+        side_by_side::<3>(&t, &y, &mut said);
+        side_by_side::<4>(&t, &y, &mut said);
     }
 
     /// [`LineOfFive::push`] for all points that [`LineOfFive::ahead`] looked at.
@@ -78,6 +76,34 @@ impl LineOfFive {
         self.t.copy_from_slice(&t[AHEAD - 5..]);
         self.y.copy_from_slice(&y[AHEAD - 5..]);
     }
+}
+
+/// The lines at the points that come to place `S` of the ring: the steps of [`line`], each for all lanes.
+#[inline(always)]
+fn side_by_side<const S: usize>(t: &Rows, y: &Rows, said: &mut impl FnMut(usize, Lanes, Lanes)) {
+    // Places before `S` have got their next point already.
+    let place = |rows: &Rows, j: usize, b: usize| rows[j][b + usize::from(j < S)];
+    let level = lanes(|b| place(y, 0, b));
+    let x: [Lanes; 5] = std::array::from_fn(|j| lanes(|b| place(t, j, b) - t[S][b + 1]));
+    let v: [Lanes; 5] = std::array::from_fn(|j| lanes(|b| place(y, j, b) - level[b]));
+    let middle = lanes(|b| (x[0][b] + x[1][b] + x[2][b] + x[3][b] + x[4][b]) / 5.0);
+    let mean = lanes(|b| (v[0][b] + v[1][b] + v[2][b] + v[3][b] + v[4][b]) / 5.0);
+    let (mut xx, mut xv) = ([0.0; LANES], [0.0; LANES]);
+    for j in 0..5 {
+        for b in 0..LANES {
+            let d = x[j][b] - middle[b];
+            xx[b] += d * d;
+            xv[b] += d * v[j][b];
+        }
+    }
+    let per_xx = lanes(|b| 1.0 / xx[b]);
+    let value = lanes(|b| level[b] + (mean[b] - middle[b] * (xv[b] * per_xx[b])));
+    said(S, value, lanes(|b| 0.2 + middle[b] * middle[b] * per_xx[b]));
+}
+
+#[inline(always)]
+fn lanes(figure: impl Fn(usize) -> f64) -> Lanes {
+    std::array::from_fn(figure)
 }
 
 /// Value and variance at 0 of the line through five points at `x` with the values `v` above `level`.
@@ -128,7 +154,12 @@ mod tests {
             let from = 5 + block * AHEAD;
             let times: &[f64; AHEAD] = t[from..from + AHEAD].try_into().unwrap();
             let values: &[f64; AHEAD] = y[from..from + AHEAD].try_into().unwrap();
-            let (expected, variances) = many.ahead(times, values);
+            let (mut expected, mut variances) = ([0.0; AHEAD], [0.0; AHEAD]);
+            many.ahead(times, values, |s, value, variance| {
+                for lane in 0..LANES {
+                    (expected[5 * lane + s], variances[5 * lane + s]) = (value[lane], variance[lane]);
+                }
+            });
             for i in 0..AHEAD {
                 let (value, variance) = plain.at(times[i]);
                 assert_eq!((value.to_bits(), variance.to_bits()), (expected[i].to_bits(), variances[i].to_bits()));

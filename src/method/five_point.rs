@@ -2,7 +2,7 @@
 
 use super::predictor::{self, Answer, Batch, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
 use super::{About, Judged, Method, Own, Segment, reaches, shared};
-use crate::math::line_of_five::{AHEAD, LineOfFive};
+use crate::math::line_of_five::{AHEAD, LANES, LineOfFive};
 use crate::param::{Param, Settings, Value};
 use crate::stop::{Stop, Stopped};
 
@@ -113,28 +113,42 @@ impl Model for Line {
     }
 }
 
+impl Line {
+    /// What is predicted of the next so many samples, should each of them be accepted; true when each is.
+    #[inline]
+    fn all_agree(&self, t: &[f64; AHEAD], y: &[f64; AHEAD], said: &mut [Prediction; AHEAD]) -> bool {
+        let scale = self.k * self.sigma;
+        let mut flagged = false;
+        self.line.ahead(t, y, |s, expected, variance| {
+            for lane in 0..LANES {
+                let (at, expected) = (5 * lane + s, expected[lane]);
+                let tolerance = scale * (1.0 + variance[lane]).sqrt();
+                // Looked at without a branch.
+                flagged |= reaches((y[at] - expected).abs(), tolerance);
+                said[at] = Prediction { expected, tolerance };
+            }
+        });
+        !flagged
+    }
+}
+
 impl Batch for Line {
     fn take_in(&mut self, t: &[f64], y: &[f64], _: f64, said: &mut [Prediction]) -> usize {
         if self.rate.is_set() {
             return 0;
         }
-        let scale = self.k * self.sigma;
         let mut at = 0;
         while at < y.len() {
             let (rest_t, rest_y) = (t[at..].first_chunk::<AHEAD>(), y[at..].first_chunk::<AHEAD>());
-            if let (true, Some(times), Some(values)) = (self.line.in_order(), rest_t, rest_y) {
-                let (expected, variances) = self.line.ahead(times, values);
-                let mut flagged = [false; AHEAD];
-                for i in 0..AHEAD {
-                    let tolerance = scale * (1.0 + variances[i]).sqrt();
-                    said[at + i] = Prediction { expected: expected[i], tolerance };
-                    flagged[i] = reaches((values[i] - expected[i]).abs(), tolerance);
-                }
-                let Some(taken) = flagged.iter().position(|flagged| *flagged) else {
+            let said_ahead = said[at..].first_chunk_mut::<AHEAD>();
+            if let (true, Some(times), Some(values), Some(said)) = (self.line.in_order(), rest_t, rest_y, said_ahead) {
+                if self.all_agree(times, values, said) {
                     self.line.push_all(times, values);
                     at += AHEAD;
                     continue;
-                };
+                }
+                let agrees = |(y, p): &(&f64, &Prediction)| !reaches((*y - p.expected).abs(), p.tolerance);
+                let taken = values.iter().zip(&*said).take_while(agrees).count();
                 (0..taken).for_each(|i| self.line.push(times[i], values[i]));
                 return at + taken;
             }
