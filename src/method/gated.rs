@@ -208,4 +208,23 @@ mod tests {
         assert!(gated.regated(&[0.0; 3], 2.0, &Stop::never()).unwrap().is_none());
         assert_eq!((gated.verdict().len(), gated.tolerance(1).is_some_and(f64::is_nan)), (3, true));
     }
+
+    #[test]
+    fn all_that_was_said_is_shown_and_shared_between_steps() {
+        use crate::method::{Direction, Way};
+        let way = Directions { forward: Some(Direction::Normal), backward: None };
+        let judged = Judged {
+            scale: vec![1.0; 2],
+            directions: vec![way; 2],
+            restarts: vec![Restart { at: 1, way: Way::Forward }],
+            warnings: vec!["mind the step".into()],
+            ..Judged::gated(&[0.0, 9.0], vec![0.0; 2], vec![1.0; 2], 3.0, &Stop::never()).unwrap()
+        };
+        let gated = Gated::new(judged.clone(), Some(3.0));
+        assert_eq!(gated.directions(), [way; 2]);
+        assert_eq!(gated.restarts(), judged.restarts);
+        assert_eq!(gated.warnings(), ["mind the step"]);
+        assert!(gated.shares_scores(&gated.regated(&[0.0, 9.0], 4.0, &Stop::never()).unwrap().unwrap()));
+        assert!(!gated.shares_scores(&Gated::new(judged, Some(3.0))));
+    }
 }

@@ -222,3 +222,47 @@ fn grow<T: Copy>(all: &mut Vec<T>, n: usize, entry: T, stop: &Stop) -> Result<()
 fn part<'a, T>(all: &'a [T], range: &Range<usize>) -> &'a [T] {
     all.get(range.clone()).unwrap_or_default()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::method::{Direction, Segment, Way};
+
+    #[test]
+    fn a_restart_keeps_its_place_when_segments_are_joined() {
+        let part = |at| Judged { restarts: vec![Restart { at, way: Way::Forward }], ..Judged::unchecked(10) };
+        let mut whole = part(4);
+        whole.append(part(3), &Stop::never()).unwrap();
+        let at = |judged: &Judged| judged.restarts.iter().map(|r| r.at).collect::<Vec<_>>();
+        assert_eq!(at(&whole), [4, 13]);
+    }
+
+    #[test]
+    fn a_tolerance_or_an_expected_value_that_overflowed_leaves_the_sample_unchecked() {
+        let said = |verdict, p, h| {
+            let judged = Judged { verdict: vec![verdict], expected: vec![p], tolerance: vec![h], ..Judged::default() };
+            let judged = judged.bounded(&Stop::never()).unwrap();
+            (judged.verdict[0], judged.expected[0].is_nan(), judged.tolerance[0].is_nan())
+        };
+        let inf = f64::INFINITY;
+        assert_eq!(said(Verdict::Normal, 1.0, inf), (Verdict::Unchecked, false, true));
+        assert_eq!(said(Verdict::Normal, -inf, 1.0), (Verdict::Unchecked, true, false));
+        assert_eq!(said(Verdict::Normal, f64::NAN, f64::NAN), (Verdict::Normal, true, true), "a start group");
+        assert_eq!(said(Verdict::Outlier, 1.0, f64::NAN), (Verdict::Unchecked, false, true));
+        assert_eq!(said(Verdict::Outlier, 1.0, 1.0), (Verdict::Outlier, false, false));
+    }
+
+    #[test]
+    fn words_of_directions_are_those_of_the_table_of_flags() {
+        let words = [Direction::Normal, Direction::Abnormal, Direction::Unjudged].map(Direction::word);
+        assert_eq!(words, ["normal", "abnormal", "unjudged"]);
+    }
+
+    #[test]
+    fn samples_lost_before_one_are_counted_from_the_one_before() {
+        let t = [0.0, 1.0, 4.0];
+        let segment = Segment { t: &t, y: &t, interval: 1.0, sigma: 0.0, floor: 0.5, rate: None };
+        assert_eq!([0, 1, 2].map(|i| segment.lost_before(i)), [0, 0, 2]);
+        assert!(!segment.is_empty() && Segment { t: &[], y: &[], ..segment }.is_empty());
+    }
+}

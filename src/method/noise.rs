@@ -248,4 +248,27 @@ mod tests {
         assert_eq!(auto_floor(&series, &series.segments(None)), [12.5]);
         assert_eq!(auto_floor(&Series::new(&t, &[7.0; 200]), &series.segments(None)), [0.0]);
     }
+
+    /// Two stretches a gap apart: the first of `n` samples in steps of 4, the second of 60 in steps of 1.
+    fn two_stretches(n: usize) -> (Vec<f64>, Vec<f64>) {
+        let t: Vec<f64> = (0..n + 60).map(|i| if i < n { i as f64 } else { i as f64 + 100.0 }).collect();
+        let values = noise(n + 60);
+        let y =
+            values.iter().enumerate().map(|(i, v)| if i < n { (v * 3.0).round() * 4.0 } else { v.round() }).collect();
+        (t, y)
+    }
+
+    /// Section 1: with fewer than 50 third differences, of all segments.
+    #[test]
+    fn fifty_third_differences_are_enough_and_one_fewer_are_not() {
+        for (n, enough) in [(53, true), (52, false)] {
+            let (t, y) = two_stretches(n);
+            let both = Series::new(&t, &y);
+            let segments = both.segments(Some(5));
+            assert_eq!(segments.len(), 2);
+            let alone = by_difference(&both, &segments[..1])[0];
+            assert_eq!(by_difference(&both, &segments)[0].to_bits() == alone.to_bits(), enough, "{n}");
+            assert_eq!(auto_floor(&both, &segments), if enough { [2.0, 0.5] } else { [0.5, 0.5] }, "{n}");
+        }
+    }
 }

@@ -225,3 +225,32 @@ pub const C: Param = Param {
     paper: None,
     matters: always,
 };
+
+#[cfg(test)]
+mod tests {
+    use crate::method::find;
+    use crate::param::Settings;
+
+    fn matters(id: &str, key: &str, changes: &[(&str, &str)]) -> bool {
+        let params = find(id).unwrap().about().params;
+        let mut settings = Settings::defaults(params);
+        changes.iter().for_each(|(key, text)| settings.set_text(id, key, text).unwrap());
+        (params.iter().find(|p| p.key == key).unwrap().matters)(&settings)
+    }
+
+    #[test]
+    fn fitting_again_matters_to_a_trend_and_to_further_passes() {
+        for (order, passes, wanted) in [("2", "0", true), ("2", "3", true), ("2", "1", false), ("0", "0", false)] {
+            let changes = [("trend_order", order), ("max_passes", passes)];
+            assert_eq!(matters("trend-wright", "refit", &changes), wanted, "order {order}, {passes} passes");
+        }
+    }
+
+    #[test]
+    fn which_order_is_taken_matters_where_there_are_several_candidates() {
+        for (order, two_point, wanted) in [("2", "false", true), ("1", "true", true), ("1", "false", false)] {
+            let changes = [("order", order), ("two_point", two_point)];
+            assert_eq!(matters("two-sided", "variable_order", &changes), wanted, "order {order}, {two_point}");
+        }
+    }
+}

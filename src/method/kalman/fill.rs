@@ -64,4 +64,14 @@ mod tests {
         assert!(Fill::Polynomial.values(&t, &y, fewer, &run).iter().all(|v| v.is_nan()), "three on the left");
         assert!(Fill::Spline.values(&t, &y, fewer, &run).iter().all(|v| v.is_finite()));
     }
+
+    #[test]
+    fn a_side_of_four_is_enough_after_the_run_as_before_it() {
+        let t: Vec<f64> = (0..30).map(f64::from).collect();
+        let run: Vec<usize> = (18..26).collect();
+        let accepted = |i: usize| !(18..26).contains(&i);
+        assert!(Fill::Polynomial.values(&t, &t, accepted, &run).iter().all(|v| v.is_finite()), "26, 27, 28, 29");
+        let fewer = |i: usize| i != 29 && accepted(i);
+        assert!(Fill::Polynomial.values(&t, &t, fewer, &run).iter().all(|v| v.is_nan()), "three on the right");
+    }
 }

@@ -230,3 +230,43 @@ impl Batch for Candidates {
         taken
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::TwoSided;
+    use super::*;
+    use crate::method::Method;
+
+    /// Parabola and line (in this order) with delta 1, which predict these values.
+    fn predicting(parabola: f64, line: f64) -> Candidates {
+        let mut model = Candidates::new(&Settings::defaults(TwoSided.about().params), 1.0, 0.1, 1.0);
+        model.predicted[..2].copy_from_slice(&[parabola, line]);
+        model
+    }
+
+    /// Section 6, step 3: the candidate that came closest, within 1e-9 delta the higher order.
+    #[test]
+    fn of_candidates_equally_close_the_higher_order_is_remembered() {
+        let code = |parabola: f64, line: f64| predicting(parabola, line).closest_to(0.0, 0.0).0.code;
+        assert_eq!(code(0.5, 0.5), 2);
+        assert_eq!(code(0.5, 0.5 - 0.5e-9), 2, "within 1e-9 delta");
+        assert_eq!(code(0.5, 0.5 - 2e-9), 1);
+        assert_eq!(code(0.5, 0.6), 2);
+        assert_eq!(code(f64::NAN, 0.6), 1);
+    }
+
+    /// Even times are taken for exactly even by the quick way: what stands within that rounding of a limit is left to
+    /// the exact one.
+    #[test]
+    fn a_prediction_near_a_limit_is_doubtful() {
+        let doubtful = |parabola: f64, line: f64, newest: f64| predicting(parabola, line).closest_to(0.0, newest).2;
+        assert!(!doubtful(0.5, 0.9, 0.5));
+        // A distance of delta, less its tie.
+        assert!(doubtful(1.0 - 1e-9, 3.0, 1.0));
+        // Two candidates that are equally close but for the tie.
+        assert!(doubtful(0.5, 0.5 - 1e-9, 0.5));
+        // The farther a prediction reaches, the less is known of it: a millionth of 1,000 is 0.001.
+        assert!(doubtful(0.9995, 3.0, 1000.0));
+        assert!(!doubtful(0.9995, 3.0, 1.0));
+    }
+}

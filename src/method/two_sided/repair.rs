@@ -76,3 +76,47 @@ fn around(segment: &Segment<'_>, accepted: &[bool], run: &[usize], c: &Candidate
     let freedom = (2 * c.points - c.order - 1) as f64;
     Some((fit, squares / freedom))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::TwoSided;
+    use super::*;
+    use crate::method::{Judged, Method};
+
+    fn segment<'a>(t: &'a [f64], y: &'a [f64]) -> Segment<'a> {
+        Segment { t, y, interval: 1.0, sigma: 1.0, floor: 0.0, rate: None }
+    }
+
+    /// Section 6, Repair: the two-point line only for a single outlier with no lost sample beside it.
+    #[test]
+    fn two_points_carry_over_a_single_outlier_with_nothing_lost_beside_it() {
+        let mut settings = Settings::defaults(TwoSided.about().params);
+        settings.set_text("two-sided", "two_point", "true").unwrap();
+        let list = candidates(&settings);
+        let agree = |code: u8, run: &[usize], gap_before: usize| {
+            // From `gap_before` on, everything comes three samples later.
+            let t: Vec<f64> = (0..20).map(|i| if i < gap_before { i as f64 } else { i as f64 + 3.0 }).collect();
+            let judged = Judged { repair_code: vec![[code, code]; 20], ..Judged::default() };
+            agreed(&segment(&t, &t), &judged.part(0..20), run, &list).map(|c| c.code)
+        };
+        assert_eq!(agree(TWO_POINT, &[5], 20), Some(TWO_POINT));
+        assert_eq!(agree(TWO_POINT, &[19], 20), Some(TWO_POINT), "nothing is lost after the last sample");
+        assert_eq!(agree(TWO_POINT, &[5], 12), Some(TWO_POINT), "lost elsewhere");
+        assert_eq!(agree(TWO_POINT, &[5, 6], 20), None, "two outliers");
+        assert_eq!(agree(TWO_POINT, &[5], 5), None, "lost before it");
+        assert_eq!(agree(TWO_POINT, &[5], 6), None, "lost after it");
+        assert_eq!(agree(1, &[5, 6], 5), Some(1), "a line on more points is not held to that");
+        assert_eq!(agree(9, &[5], 20), None, "no such candidate");
+    }
+
+    /// The line through (0, 1) (1, -1) (3, -1) (4, 1) is y = 0: squares 4, over 2 * 2 - 1 - 1 degrees of freedom.
+    #[test]
+    fn the_misfit_is_the_sum_of_squares_per_degree_of_freedom() {
+        let (t, y) = ([0.0, 1.0, 2.0, 3.0, 4.0], [1.0, -1.0, 99.0, -1.0, 1.0]);
+        let accepted = [true, true, false, true, true];
+        let line = Candidate { order: 1, points: 2, code: 1 };
+        let (fit, misfit) = around(&segment(&t, &y), &accepted, &[2], &line).unwrap();
+        assert!(fit.at(2.0).abs() < 1e-12 && (misfit - 2.0).abs() < 1e-12, "{misfit}");
+        assert!(around(&segment(&t, &y), &accepted, &[2], &Candidate { points: 3, ..line }).is_none());
+    }
+}

@@ -150,3 +150,21 @@ fn gating_again_is_judging_again_across_cuts_and_short_segments() {
         assert_eq!(bits(&again.tolerance), bits(&wanted.tolerance));
     }
 }
+
+/// Section 3, `edge`: the mean of three at the first sample of 1, 5, 3 is that of 5 1 5 reflected, of 0 1 5 with
+/// zeros, of 1 5 3 where the window is cut to the three nearest.
+#[test]
+fn what_a_window_holds_beyond_the_ends_is_as_the_setting_says() {
+    use crate::method::{Method, mean_window::MeanWindow};
+    use crate::param::Settings;
+    let (t, y) = ([0.0, 1.0, 2.0, 3.0, 4.0], [1.0, 5.0, 3.0, 4.0, 2.0]);
+    let segment = Segment { t: &t, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, rate: None };
+    for (edge, expected) in [("reflect", 11.0 / 3.0), ("zero", 2.0), ("shrink", 3.0)] {
+        let mut settings = Settings::defaults(MeanWindow.about().params);
+        for (key, text) in [("edge", edge), ("window", "3"), ("detrend", "off"), ("feedback", "false")] {
+            settings.set_text("it", key, text).unwrap();
+        }
+        let judged = MeanWindow.judge(&segment, &settings, &Stop::never()).unwrap();
+        assert!((judged.expected[0] - expected).abs() < 1e-12, "{edge}: {}", judged.expected[0]);
+    }
+}

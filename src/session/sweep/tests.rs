@@ -111,3 +111,16 @@ fn a_sweep_nobody_waits_for_ends() {
     let ended = sweep(&track, channel, &samples, &setup, (param, &[1.0, 2.0]), &stop);
     assert!(matches!(ended, Err(Error::Stopped)));
 }
+
+#[test]
+fn a_plateau_knows_its_counts_and_begins_above_zero() {
+    let sweep = Sweep::of("k", points(&[(1.0, 100), (2.0, 98)]));
+    assert_eq!((sweep.plateaus[0].least, sweep.plateaus[0].most), (98, 100));
+    assert_eq!(found(&[(0.0, 5), (1.0, 5), (2.0, 5)]).0, [(1.0, 2.0)], "no factor leads away from 0");
+}
+
+#[test]
+fn the_longest_plateau_is_suggested_wherever_it_stands() {
+    let counts = [(1.0, 50), (2.0, 50), (4.0, 9), (8.0, 9), (16.0, 9)];
+    assert_eq!(found(&counts), (vec![(1.0, 2.0), (4.0, 16.0)], Some(8.0)));
+}
