@@ -36,7 +36,8 @@ impl Bench {
 
     /// The same while the first result is still awaited.
     pub fn unanswered(name: &str, (glyphs, depth): (Glyphs, ColorDepth)) -> Self {
-        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("data").join(name);
+        // As a user would name it from the checkout: paths on the screen are the same wherever that lies.
+        let path = PathBuf::from("data").join(name);
         let options = LoadOptions::default();
         let track = load(&Source::File(path), &options).unwrap();
         let session = Session::new(&track, options, &Setup::standard());
