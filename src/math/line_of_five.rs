@@ -78,7 +78,7 @@ impl LineOfFive {
     }
 }
 
-/// The lines at the points that come to place `S` of the ring: the steps of [`line`], each for all lanes.
+/// The lines at the points that come to place `S` of the ring: the steps of [`line()`], each for all lanes.
 #[inline(always)]
 fn side_by_side<const S: usize>(t: &Rows, y: &Rows, said: &mut impl FnMut(usize, Lanes, Lanes)) {
     // Places before `S` have got their next point already.

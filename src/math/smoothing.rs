@@ -47,7 +47,7 @@ struct Steps {
 }
 
 impl Steps {
-    /// Row j of Q' has 1/h[j], -1/h[j]-1/h[j+1], 1/h[j+1] at j, j+1, j+2.
+    /// Row j of Q' has `1/h[j]`, `-1/h[j] - 1/h[j+1]`, `1/h[j+1]` at j, j+1, j+2.
     #[inline]
     fn q(&self, j: usize) -> [f64; 3] {
         let (a, c) = (self.inverse[j - self.begin], self.inverse[j + 1 - self.begin]);
