@@ -182,27 +182,5 @@ impl Model for AdaptiveLine {
     }
 }
 
-impl Batch for AdaptiveLine {
-    // Each scale comes from the one before, so that nothing is gained by many side by side: what this saves is the
-    // way through the engine.
-    fn take_in(&mut self, t: &[f64], y: &[f64], _: f64, said: &mut [Prediction]) -> usize {
-        if self.rate.is_set() {
-            return 0;
-        }
-        for (at, ((&t, &y), said)) in t.iter().zip(y).zip(said).enumerate() {
-            let before = self.scale.square();
-            self.predict(t, 0, 0);
-            let Prediction { expected, tolerance } = self.prediction;
-            let residual = y - expected;
-            if reaches(residual.abs(), tolerance) {
-                // It will be predicted once more.
-                self.scale.go_back(before);
-                return at;
-            }
-            self.scale.push(residual * self.to_even);
-            self.line.push(t, y);
-            *said = self.prediction;
-        }
-        y.len()
-    }
-}
+// Each scale comes from the one before: nothing is gained by many at a time.
+impl Batch for AdaptiveLine {}
