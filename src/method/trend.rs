@@ -158,9 +158,11 @@ fn judge_block(
         }
         let out = |piece: Range<usize>| piece.filter(|&i| flagged[position[i]]).collect::<Vec<usize>>();
         let out = pieces::map(position.len(), &check, out)?.concat();
-        remove(&mut position, &out, &check)?;
-        remove_from_slice(&mut ts, &out, &check)?;
-        remove_from_slice(&mut ys, &out, &check)?;
+        let (positions, (times, values)) = rayon::join(
+            || remove(&mut position, &out, &check),
+            || rayon::join(|| remove_from_slice(&mut ts, &out, &check), || remove_from_slice(&mut ys, &out, &check)),
+        );
+        positions.and(times).and(values)?;
         residual.truncate(position.len());
         if rule.refit {
             fit = Polynomial::fit_long(&ts, &ys, rule.order, &check)?;
