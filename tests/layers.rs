@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 /// The layers, lowest first; modules of one line may know each other.
 const LAYERS: &[&[&str]] = &[
     &["error"],
-    &["track"],
     &["math"],
+    &["track"],
     &["stop"],
     &["param"],
     &["method"],
