@@ -20,6 +20,7 @@ mod svg;
 
 pub use diagnostics::diagnostics;
 pub use flags::flags;
+pub(crate) use inspection::short;
 pub use inspection::{ChannelFacts, Inspection, layout};
 pub use page::ReportForm;
 pub use reproduction::reproduction_text;

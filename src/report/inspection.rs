@@ -189,7 +189,7 @@ impl Inspection {
 }
 
 /// Six significant digits, without an exponent where that is readable.
-pub(super) fn short(x: f64) -> String {
+pub(crate) fn short(x: f64) -> String {
     let size = x.abs();
     if size != 0.0 && !(1e-4..1e9).contains(&size) {
         return format!("{x:.4e}");

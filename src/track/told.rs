@@ -49,6 +49,23 @@ pub struct TimeUnit {
     pub(crate) ns: i64,
 }
 
+impl TimeUnit {
+    /// Its name in full, in the plural.
+    #[must_use]
+    pub fn name(self) -> String {
+        match self.word() {
+            Some("ns") => "nanoseconds".into(),
+            Some("us") => "microseconds".into(),
+            Some("ms") => "milliseconds".into(),
+            Some("s") => "seconds".into(),
+            Some("min") => "minutes".into(),
+            Some("h") => "hours".into(),
+            Some("d") => "days".into(),
+            _ => format!("units of {} ns", self.ns),
+        }
+    }
+}
+
 impl Worded for TimeUnit {
     const WORDS: &'static [(&'static str, Self)] = &[
         ("ns", Self { ns: 1 }),
@@ -85,6 +102,7 @@ mod tests {
     fn a_unit_that_is_told_is_that_of_a_column_with_its_name() {
         for (word, unit) in TimeUnit::WORDS {
             assert_eq!(names::time_unit_ns(word), Some(unit.ns), "{word}");
+            assert!(!unit.name().starts_with("units"), "{word} has a name in full");
         }
     }
 }

@@ -7,9 +7,7 @@ use super::is_session;
 use crate::error::Result;
 use crate::session;
 use crate::stop::Stop;
-use crate::track::{
-    ColumnKind, Fault, LoadOptions, Preview, Series, Source, Track, Wanted, printable, without_signed_zero,
-};
+use crate::track::{ColumnKind, Fault, LoadOptions, Preview, Series, Source, Track, Wanted, printable};
 
 /// How much of a record is read.
 const MOST: u64 = 1 << 20;
@@ -118,8 +116,11 @@ fn with_unit(channel: &crate::track::Channel) -> String {
 fn steps(track: &Track, channel: &crate::track::Channel) -> String {
     let series = Series::of(channel, &track.time);
     let lost = (1..series.len()).map(|i| series.lost_before(i)).fold(0, usize::saturating_add);
-    let interval =
-        if series.interval.is_finite() { format!("step {} s", short(series.interval)) } else { "no step".into() };
+    let interval = if series.interval.is_finite() {
+        format!("step {} s", crate::report::short(series.interval))
+    } else {
+        "no step".into()
+    };
     format!("{interval}, {} of {} samples there, {lost} lost between", series.len(), track.rows)
 }
 
@@ -146,11 +147,6 @@ fn rounded(n: usize) -> usize {
     let digits = n.max(1).ilog10().saturating_sub(1);
     let unit = 10_usize.pow(digits);
     (n + unit / 2) / unit * unit
-}
-
-fn short(x: f64) -> String {
-    let text = format!("{x:.6}");
-    without_signed_zero(text.trim_end_matches('0').trim_end_matches('.').to_owned())
 }
 
 #[cfg(test)]
