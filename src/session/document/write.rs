@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::FORMAT;
 use crate::param::{Param, Settings, Value};
-use crate::session::{Plan, Session, folder_of};
+use crate::session::{Data, Plan, Session, folder_of};
 use crate::track::{Source, Worded};
 
 /// The session file for a session that lies at `path`. `texts` gives, for each plan, the texts of time and value of
@@ -23,41 +23,7 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
     line(format!("file = {}", quoted(&reference(&session.data.source, path))));
     line(format!("sha256 = {}", quoted(&session.data.sha256)));
     line(format!("rows = {}", session.data.rows));
-    let options = &session.data.options;
-    for (key, value) in [
-        ("time", &options.time),
-        ("truth", &options.truth),
-        ("track", &options.track),
-        ("row_check", &session.data.row_check),
-    ] {
-        if let Some(value) = value {
-            line(format!("{key} = {}", quoted(value)));
-        }
-    }
-    for (key, word) in [
-        ("delimiter", options.delimiter.and_then(Worded::word)),
-        ("encoding", options.encoding.and_then(Worded::word)),
-        ("time_unit", options.time_unit.and_then(Worded::word)),
-    ] {
-        if let Some(word) = word {
-            line(format!("{key} = {}", quoted(word)));
-        }
-    }
-    let switches = [
-        ("decimal_comma", options.decimal_comma),
-        ("header", options.header),
-        ("quotes", options.quotes),
-        ("day_first", options.day_first),
-    ];
-    for (key, value) in switches {
-        if let Some(value) = value {
-            line(format!("{key} = {value}"));
-        }
-    }
-    if !options.missing.is_empty() {
-        let markers: Vec<String> = options.missing.iter().map(|m| quoted(m)).collect();
-        line(format!("missing = [{}]", markers.join(", ")));
-    }
+    loading(&session.data).into_iter().for_each(&mut line);
     for (plan, texts) in session.plans.iter().zip(texts) {
         line("\n[[channel]]".into());
         line(format!("name = {}", quoted(&plan.channel)));
@@ -75,6 +41,44 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
         line(format!("clean_sha256 = {}", quoted(&result.clean_sha256)));
     }
     out
+}
+
+/// The lines of what the loader was told, and of the sums of the rows.
+fn loading(data: &Data) -> Vec<String> {
+    let options = &data.options;
+    let mut lines = Vec::new();
+    for (key, value) in
+        [("time", &options.time), ("truth", &options.truth), ("track", &options.track), ("row_check", &data.row_check)]
+    {
+        if let Some(value) = value {
+            lines.push(format!("{key} = {}", quoted(value)));
+        }
+    }
+    for (key, word) in [
+        ("delimiter", options.delimiter.and_then(Worded::word)),
+        ("encoding", options.encoding.and_then(Worded::word)),
+        ("time_unit", options.time_unit.and_then(Worded::word)),
+    ] {
+        if let Some(word) = word {
+            lines.push(format!("{key} = {}", quoted(word)));
+        }
+    }
+    let switches = [
+        ("decimal_comma", options.decimal_comma),
+        ("header", options.header),
+        ("quotes", options.quotes),
+        ("day_first", options.day_first),
+    ];
+    for (key, value) in switches {
+        if let Some(value) = value {
+            lines.push(format!("{key} = {value}"));
+        }
+    }
+    if !options.missing.is_empty() {
+        let markers: Vec<String> = options.missing.iter().map(|m| quoted(m)).collect();
+        lines.push(format!("missing = [{}]", markers.join(", ")));
+    }
+    lines
 }
 
 /// The lines of the decisions of a channel; none where there are none.
