@@ -91,11 +91,15 @@ fn preview(model: &Model, browser: &Browser, area: Rect, beside: bool, buffer: &
         lines.extend(wrapped.into_iter().map(|l| Line::styled(l.to_string(), style)));
     }
     if let Some(entry) = browser.chosen() {
-        if !beside {
-            lines.push(Line::styled("what it is", theme.dim));
-        }
         let seen = browser.seen.as_ref().filter(|(path, _)| *path == entry.path).map(|(_, seen)| seen);
-        lines.extend(known(model, seen, usize::from(area.width)));
+        // What stands above already is not said twice.
+        let said = browser.said.as_ref().map(|(text, _)| text);
+        if !matches!(seen, Some(Err(error)) if Some(error) == said) {
+            if !beside {
+                lines.push(Line::styled("what it is", theme.dim));
+            }
+            lines.extend(known(model, seen, usize::from(area.width)));
+        }
     }
     rows(model, lines, 0, area, buffer);
 }
