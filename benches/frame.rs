@@ -56,6 +56,18 @@ fn frame(columns: &Columns, theme: &Theme, buffer: &mut Buffer) {
         .render(Rect { y: AREA.height - 1, height: 1, ..AREA }, buffer);
 }
 
+fn residual(
+    columns: &Columns,
+    ratio: &dyn Fn(usize) -> Option<f64>,
+    pyramid: &Pyramid,
+    theme: &Theme,
+    buffer: &mut Buffer,
+) {
+    let (threshold, top, log, glyphs, cursor) = (1.0, 3.0, false, Glyphs::Unicode, None);
+    ResidualPlot { columns, ratio, pyramid, threshold, top, log, theme, glyphs, cursor }
+        .render(Rect { height: 10, ..AREA }, buffer);
+}
+
 fn of_size(criterion: &mut Criterion, name: &str, n: usize, share_flagged: f64) {
     let record = Record::new(n, share_flagged);
     let theme = Theme::choose(ColorDepth::Indexed256, false);
@@ -96,23 +108,9 @@ fn of_size(criterion: &mut Criterion, name: &str, n: usize, share_flagged: f64) 
             group.bench_function("cursor step", |b| b.iter(|| frame(black_box(&columns), &theme, &mut buffer)));
             let ratio = |i: usize| Some(record.y[i] / 10.0);
             let ratios = ResidualPlot::pyramid(n, ratio);
+            let pyramid = &ratios;
             group.bench_function("residual frame", |b| {
-                b.iter(|| {
-                    let (columns, glyphs, cursor) = (black_box(&columns), Glyphs::Unicode, None);
-                    let pyramid = &ratios;
-                    ResidualPlot {
-                        columns,
-                        ratio: &ratio,
-                        pyramid,
-                        threshold: 1.0,
-                        top: 3.0,
-                        log: false,
-                        theme: &theme,
-                        glyphs,
-                        cursor,
-                    }
-                    .render(Rect { height: 10, ..AREA }, &mut buffer);
-                });
+                b.iter(|| residual(black_box(&columns), &ratio, pyramid, &theme, &mut buffer));
             });
         }
     }
