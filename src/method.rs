@@ -42,7 +42,7 @@ mod window;
 pub mod wright;
 
 pub use gated::Gated;
-pub use judged::{Directions, Judged, Part};
+pub use judged::{Damaged, Directions, Judged, Part};
 pub use segment::{Rate, Segment, zero_scale, zero_scale_of_many};
 pub use verdict::{Direction, Restart, TIE, Verdict, Way, exceeds, reaches};
 
@@ -162,20 +162,13 @@ pub trait Method: Sync {
         Ok(Vec::new())
     }
 
-    /// What the method's document puts in place of the outliers (`own` repair): one value for each sample of
-    /// `outliers` (positions in the segment, ascending, after the analyst's decisions), NaN where it puts nothing.
+    /// What the method's document puts in place of the outliers (`own` repair): one value for each of
+    /// [`Damaged::outliers`], NaN where it puts nothing.
     ///
     /// # Errors
     /// [`Stopped`] as soon as nobody waits for the result any more.
-    fn own_repair(
-        &self,
-        segment: &Segment<'_>,
-        settings: &Settings,
-        judged: &Part<'_>,
-        outliers: &[usize],
-        stop: &Stop,
-    ) -> Result<Vec<f64>, Stopped> {
-        let _ = (segment, settings);
+    fn own_repair(&self, damaged: &Damaged<'_>, stop: &Stop) -> Result<Vec<f64>, Stopped> {
+        let Damaged { judged, outliers, .. } = *damaged;
         let own = |n: usize| {
             let put_in = judged.own.get(outliers[n]).copied().filter(|v| v.is_finite());
             put_in.or_else(|| judged.expected.get(outliers[n]).copied()).unwrap_or(f64::NAN)

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use wildpoint::method::kalman::judge_joint;
-use wildpoint::method::{Direction, Judged, METHODS, Method, Rate, Segment, Verdict, Way, find, noise};
+use wildpoint::method::{Damaged, Direction, Judged, METHODS, Method, Rate, Segment, Verdict, Way, find, noise};
 use wildpoint::param::Settings;
 use wildpoint::stop::{Stop, Stopped};
 use wildpoint::track::Series;
@@ -68,9 +68,10 @@ impl Record {
 
     fn repaired(&self, id: &str, changes: &[(&str, &str)], outliers: &[usize]) -> Vec<f64> {
         let judged = self.judged(id, changes);
-        let part = judged.part(0..self.y.len());
-        let stop = Stop::never();
-        method(id).own_repair(&self.segment(), &settings(id, changes), &part, outliers, &stop).expect("nobody stops it")
+        let judged = judged.part(0..self.y.len());
+        let (segment, settings) = (&self.segment(), &settings(id, changes));
+        let damaged = Damaged { segment, settings, judged, outliers };
+        method(id).own_repair(&damaged, &Stop::never()).expect("nobody stops it")
     }
 }
 

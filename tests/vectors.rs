@@ -10,7 +10,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use wildpoint::method::{METHODS, Method, Rate, Segment, Verdict, judge_channel, noise, segments};
+use wildpoint::method::{Damaged, METHODS, Method, Rate, Segment, Verdict, judge_channel, noise, segments};
 use wildpoint::param::Settings;
 use wildpoint::stop::Stop;
 use wildpoint::track::Series;
@@ -80,8 +80,9 @@ fn cleaned(method: &dyn Method, series: &Series<'_>, rate: Option<Rate<'_>>, set
         let segment = Segment::of(series, range, scales, rate);
         let part = method.judge(&segment, settings, &stop).expect("nobody stops it");
         let outliers: Vec<usize> = (0..segment.len()).filter(|&i| part.verdict[i] == Verdict::Outlier).collect();
-        let whole = part.part(0..segment.len());
-        let own = method.own_repair(&segment, settings, &whole, &outliers, &stop).expect("nobody stops it");
+        let judged = part.part(0..segment.len());
+        let damaged = Damaged { segment: &segment, settings, judged, outliers: &outliers };
+        let own = method.own_repair(&damaged, &stop).expect("nobody stops it");
         let mut own = own.into_iter();
         for run in outliers.chunk_by(|a, b| a + 1 == *b) {
             for (at, value) in run.iter().zip(&mut own) {

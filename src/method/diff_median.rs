@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::window::{self, Edge, Windows};
-use super::{About, Judged, Method, Own, Part, Segment, Verdict, exceeds, reaches, shared};
+use super::{About, Judged, Method, Own, Segment, Verdict, exceeds, reaches, shared};
 use crate::math::order::{MAD_TO_SIGMA, median_of_many};
 use crate::math::pieces::{self, PIECE};
 use crate::param::{Kind, Param, Settings, Value, always};
@@ -88,18 +88,6 @@ impl Method for DiffMedian {
             if switching { scale.max(segment.sigma) } else { scale }
         };
         judge(segment, &smoother, k, scale, settings.whole(shared::MAX_PASSES.key))
-    }
-
-    /// The smoothed value that was put in last; the expected value of a sample that only the analyst marked.
-    fn own_repair(
-        &self,
-        _: &Segment<'_>,
-        _: &Settings,
-        judged: &Part<'_>,
-        outliers: &[usize],
-        stop: &Stop,
-    ) -> Result<Vec<f64>, Stopped> {
-        window::replacement_or_expected(judged, outliers, stop)
     }
 }
 

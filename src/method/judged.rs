@@ -4,8 +4,10 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::Segment;
 use super::verdict::{Direction, Restart, Verdict};
 use crate::math::pieces::{self, PIECE};
+use crate::param::Settings;
 use crate::stop::{Stop, Stopped};
 
 /// What a method says of a segment: one entry per sample, in order.
@@ -44,6 +46,19 @@ pub struct Part<'a> {
     pub repair_code: &'a [[u8; 2]],
     /// What the method's own repair puts in place of a sample; NaN where nothing.
     pub own: &'a [f64],
+}
+
+/// What a method's own repair is given.
+#[derive(Debug, Clone, Copy)]
+pub struct Damaged<'a> {
+    /// The segment as it was measured.
+    pub segment: &'a Segment<'a>,
+    /// The knobs of the method.
+    pub settings: &'a Settings,
+    /// What it said of the segment.
+    pub judged: Part<'a>,
+    /// What is to be replaced: positions in the segment, ascending, after the analyst's decisions.
+    pub outliers: &'a [usize],
 }
 
 /// What the two directions say of a sample; none for a direction that was not run.

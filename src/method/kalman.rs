@@ -1,7 +1,7 @@
 //! Kalman innovation test with infill: section 7 of the methods page, \[004\].
 
 use super::predictor::{Engine, Page, feed};
-use super::{About, Judged, Method, Own, Part, Segment, Together, Verdict, Way, shared};
+use super::{About, Damaged, Judged, Method, Own, Segment, Together, Verdict, Way, shared};
 use crate::param::{Kind, Param, Settings, Step, Value, always};
 use crate::stop::{Stop, Stopped};
 use crate::track::Series;
@@ -170,14 +170,8 @@ impl Method for Kalman {
         judge_joint(channels, settings, stop)
     }
 
-    fn own_repair(
-        &self,
-        segment: &Segment<'_>,
-        settings: &Settings,
-        judged: &Part<'_>,
-        outliers: &[usize],
-        stop: &Stop,
-    ) -> Result<Vec<f64>, Stopped> {
+    fn own_repair(&self, damaged: &Damaged<'_>, stop: &Stop) -> Result<Vec<f64>, Stopped> {
+        let Damaged { segment, settings, judged, outliers } = *damaged;
         let fill = plan(settings).fill;
         let mut accepted = vec![true; segment.len()];
         for &i in outliers {

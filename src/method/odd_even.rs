@@ -1,7 +1,7 @@
 //! Odd-even extraction: Wright's criterion within groups of samples that are not neighbours.
 
 use super::trend::{self, AtOnce, Criterion};
-use super::{About, Judged, Method, Own, Part, Segment, shared};
+use super::{About, Damaged, Judged, Method, Own, Segment, shared};
 use crate::math::pieces;
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
@@ -59,14 +59,8 @@ impl Method for OddEven {
 
     /// The trend at the sample plus the residual of the previous normal sample of its group; where there is none, of
     /// the next one (\[001\]: "the second replaces the first").
-    fn own_repair(
-        &self,
-        segment: &Segment<'_>,
-        settings: &Settings,
-        judged: &Part<'_>,
-        outliers: &[usize],
-        stop: &Stop,
-    ) -> Result<Vec<f64>, Stopped> {
+    fn own_repair(&self, damaged: &Damaged<'_>, stop: &Stop) -> Result<Vec<f64>, Stopped> {
+        let Damaged { segment, settings, judged, outliers } = *damaged;
         let groups = groups(settings);
         let mut normal = vec![true; segment.len()];
         outliers.iter().for_each(|&i| normal[i] = false);
@@ -110,7 +104,11 @@ mod tests {
             ..Judged::default()
         };
         // 9 follows 5; 2 starts its group and 6 is an outlier too, so 10 stands in; 20 starts the second block.
-        let got = OddEven.own_repair(&segment, &settings, &judged.part(0..40), &[2, 6, 9, 20], &Stop::never()).unwrap();
+        let got = {
+            let (segment, settings, outliers) = (&segment, &settings, &[2, 6, 9, 20]);
+            let damaged = Damaged { segment, settings, judged: judged.part(0..40), outliers };
+            OddEven.own_repair(&damaged, &Stop::never()).unwrap()
+        };
         let from = |i: usize, j: usize| 100.0 * i as f64 + y[j] - 100.0 * j as f64;
         assert_eq!(got, [from(2, 10), from(6, 10), from(9, 5), from(20, 24)]);
     }

@@ -1,7 +1,7 @@
 //! The sliding polynomial: every sample of a window against a least-squares polynomial over it.
 
 use super::window::{self, PolyRule};
-use super::{About, Judged, Method, Own, Part, Segment, shared};
+use super::{About, Judged, Method, Own, Segment, shared};
 use crate::math::polyfit::Polynomial;
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
@@ -61,18 +61,6 @@ impl Method for PolyWindow {
             k: settings.real(shared::K.key),
         };
         window::judge_polynomials(&rule, segment, stop)
-    }
-
-    /// The last value that the feedback put in; the expected value where it put in none.
-    fn own_repair(
-        &self,
-        _: &Segment<'_>,
-        _: &Settings,
-        judged: &Part<'_>,
-        outliers: &[usize],
-        stop: &Stop,
-    ) -> Result<Vec<f64>, Stopped> {
-        window::replacement_or_expected(judged, outliers, stop)
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{About, Direction, Directions, Judged, Method, Own, Part, Segment, TIE, Verdict, Way, shared};
+use super::{About, Damaged, Direction, Directions, Judged, Method, Own, Segment, TIE, Verdict, Way, shared};
 use crate::math::pieces::{self, PIECE};
 use crate::param::{Choice, Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
@@ -170,15 +170,8 @@ impl Method for TwoSided {
         together(segment, delta, forward, backward, stop)
     }
 
-    fn own_repair(
-        &self,
-        segment: &Segment<'_>,
-        settings: &Settings,
-        judged: &Part<'_>,
-        outliers: &[usize],
-        stop: &Stop,
-    ) -> Result<Vec<f64>, Stopped> {
-        repair::repair(segment, settings, judged, outliers, stop)
+    fn own_repair(&self, damaged: &Damaged<'_>, stop: &Stop) -> Result<Vec<f64>, Stopped> {
+        repair::repair(damaged, stop)
     }
 
     fn notes(&self, settings: &Settings) -> Vec<String> {

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{Judged, Part, Segment, Verdict, reaches, shared};
+use super::{Judged, Segment, Verdict, reaches, shared};
 use crate::math::order::median_of_many;
 use crate::math::pieces;
 use crate::param::Settings;
@@ -85,16 +85,6 @@ pub(super) fn has_feedback(settings: &Settings) -> bool {
 /// The key of the multiplier, where there is no feedback and it only gates.
 pub(super) fn gate(settings: &Settings) -> Option<&'static str> {
     (!has_feedback(settings)).then_some(shared::K.key)
-}
-
-/// What the `own` repair of a method with feedback puts in: the last replacement, or the expected value.
-pub(super) fn replacement_or_expected(judged: &Part<'_>, outliers: &[usize], stop: &Stop) -> Result<Vec<f64>, Stopped> {
-    let at = |values: &[f64], i: usize| values.get(i).copied().filter(|v| !v.is_nan());
-    let value = |n: usize| {
-        let i = outliers[n];
-        at(judged.own, i).or(at(judged.expected, i)).unwrap_or(f64::NAN)
-    };
-    pieces::collect(outliers.len(), &|| stop.check(), value)
 }
 
 /// Fills `out` by `each(state, index)`, piece by piece in parallel, each piece with a new state.

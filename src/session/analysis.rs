@@ -7,7 +7,7 @@ use super::Setup;
 use crate::error::{Error, Result};
 use crate::math::pieces::{self, PIECE};
 use crate::method::noise::{self, Scales};
-use crate::method::{Gated, Judged, Rate, Segment, Together, Verdict, judge_segments, segments};
+use crate::method::{Damaged, Gated, Judged, Rate, Segment, Together, Verdict, judge_segments, segments};
 use crate::repair::{self, Damage, Gap};
 use crate::review::{Decision, Decisions};
 use crate::stop::{Stop, Stopped};
@@ -195,8 +195,9 @@ impl Settled {
         let own = match repair::chosen(&setup.repair).way {
             // Nobody asks for it otherwise.
             repair::Way::Own => {
-                let part = detection.judged.part(range.clone());
-                setup.method.own_repair(&segment, &setup.settings, &part, &local, stop)?
+                let judged = detection.judged.part(range.clone());
+                let damaged = Damaged { segment: &segment, settings: &setup.settings, judged, outliers: &local };
+                setup.method.own_repair(&damaged, stop)?
             }
             _ => Vec::new(),
         };

@@ -2,18 +2,12 @@
 
 use super::candidates::{Candidate, TWO_POINT, candidates};
 use crate::math::polyfit::Polynomial;
-use crate::method::{Part, Segment};
-use crate::param::Settings;
+use crate::method::{Damaged, Part, Segment};
 use crate::stop::{Stop, Stopped};
 
-/// One value for each sample of `outliers` (ascending positions); NaN where the sample is removed.
-pub(super) fn repair(
-    segment: &Segment<'_>,
-    settings: &Settings,
-    judged: &Part<'_>,
-    outliers: &[usize],
-    stop: &Stop,
-) -> Result<Vec<f64>, Stopped> {
+/// One value for each outlier; NaN where the sample is removed.
+pub(super) fn repair(damaged: &Damaged<'_>, stop: &Stop) -> Result<Vec<f64>, Stopped> {
+    let Damaged { segment, settings, judged, outliers } = *damaged;
     let list = candidates(settings);
     let matched = settings.word("repair_rule") == "matched";
     let mut accepted = vec![true; segment.len()];
@@ -25,7 +19,7 @@ pub(super) fn repair(
         // A run costs some microseconds.
         stop.check_at(64 * n)?;
         let fit = if matched {
-            agreed(segment, judged, run, &list).and_then(|c| around(segment, &accepted, run, c)).map(|(fit, _)| fit)
+            agreed(segment, &judged, run, &list).and_then(|c| around(segment, &accepted, run, c)).map(|(fit, _)| fit)
         } else {
             best(segment, &accepted, run, &list)
         };
@@ -82,6 +76,7 @@ mod tests {
     use super::super::TwoSided;
     use super::*;
     use crate::method::{Judged, Method};
+    use crate::param::Settings;
 
     fn segment<'a>(t: &'a [f64], y: &'a [f64]) -> Segment<'a> {
         Segment { t, y, interval: 1.0, sigma: 1.0, floor: 0.0, rate: None }
