@@ -145,8 +145,8 @@ fn typing_narrows_the_list_and_enter_opens() {
     let request = Request::file("/data/tracks/radar_week_17.csv.gz".into());
     assert_eq!(effects, [Effect::Files(Task::Open { ticket: 1, request })]);
     assert!(bench.frame().contains("loading radar_week_17.csv.gz"));
-    // Esc leaves it: the answer, when it comes, is not taken.
-    bench.key(KeyCode::Esc);
+    // Esc leaves it: nobody reads on, and an answer that comes all the same is not taken.
+    assert_eq!(bench.key(KeyCode::Esc), [Effect::Files(Task::Abandon)]);
     let late = bench.news(News::Opened { ticket: 1, result: Ok(Box::new(model(Glyphs::Unicode))) });
     assert!(late.is_empty() && matches!(bench.0.overlay, Overlay::Files(_)), "back in the picker");
     // Nor is it taken for the answer to the next request.
@@ -181,6 +181,19 @@ fn folders_are_entered_and_left_and_a_path_can_be_typed() {
     let e = Error::input("/data/elsewhere/x.csv", "no rows", "name a file with rows");
     bench.news(News::Opened { ticket: 1, result: Err(e) });
     assert!(bench.frame().contains("x.csv: no rows; name a file with rows"), "{}", bench.frame());
+}
+
+#[test]
+fn why_a_file_cannot_be_opened_is_said_once() {
+    let mut bench = picker(Glyphs::Unicode);
+    bench.key(KeyCode::Down);
+    let wrong = || Error::input(DEMO, "no rows", "name a file with rows");
+    bench.news(News::Seen { glance: Glance::file(DEMO.into()), result: Err(wrong()) });
+    let said = |bench: &Bench| bench.frame().matches("no rows; name a file").count();
+    assert_eq!(said(&bench), 1, "before anything is pressed\n{}", bench.frame());
+    bench.key(KeyCode::Enter);
+    bench.news(News::Opened { ticket: 1, result: Err(wrong()) });
+    assert_eq!(said(&bench), 1, "{}", bench.frame());
 }
 
 #[test]

@@ -194,7 +194,7 @@ mod tests {
 
     #[test]
     fn a_block_is_still_between_its_nearest_ratios() {
-        let (y, expected, scale) = ([2.0, -6.0, 30.0], [0.0; 3], [1.0, 2.0, 3.0]);
+        let (y, expected, scale) = ([12.0, 4.0, 40.0], [10.0; 3], [1.0, 2.0, 3.0]);
         let mut verdict = [Verdict::Normal; 3];
         let (low, high) = gate_block(&mut verdict, &y, &expected, &scale, 5.0);
         assert_eq!(verdict, [Verdict::Normal, Verdict::Normal, Verdict::Outlier]);

@@ -267,6 +267,7 @@ mod tests {
             let segments = both.segments(Some(5));
             assert_eq!(segments.len(), 2);
             let alone = by_difference(&both, &segments[..1])[0];
+            assert!(alone > 1.0, "{n}: steps of 4");
             assert_eq!(by_difference(&both, &segments)[0].to_bits() == alone.to_bits(), enough, "{n}");
             assert_eq!(auto_floor(&both, &segments), if enough { [2.0, 0.5] } else { [0.5, 0.5] }, "{n}");
         }
