@@ -114,7 +114,9 @@ fn report(known: &Known, listed: &BTreeSet<survivors::Row>, arguments: &Argument
         any = true;
         println!("{}", survivors::written(&known.rows[i], &format!("line {}", known.list[i].span.0.line)));
     }
-    let alive: BTreeSet<&survivors::Row> = (0..known.list.len()).filter(|&i| open(i)).map(|i| &known.rows[i]).collect();
+    // What was not judged may survive.
+    let may = |i: usize| open(i) || known.outcome(i).is_none();
+    let alive: BTreeSet<&survivors::Row> = (0..known.list.len()).filter(|&i| may(i)).map(|i| &known.rows[i]).collect();
     for row in listed.iter().filter(|row| arguments.wants(&row.file) && !alive.contains(row)) {
         println!("listed, but does not survive: {}", survivors::written(row, ""));
     }

@@ -50,13 +50,14 @@ impl Outcome {
 }
 
 /// What a mutant is known by as long as its function does not change, wherever that moves: a sum over the file's name,
-/// the text of the function, the place in it and the replacement. In the order of `mutants`, which are those of one
-/// file.
+/// the text of the function, the place in it, the replacement, and how many functions of the same text stand before. In
+/// the order of `mutants`, which are those of one file.
 ///
 /// # Errors
 /// Words that say where the text is no Rust.
 pub fn keys(text: &str, mutants: &[&Mutant]) -> Result<Vec<u64>, String> {
     let units = units(text)?;
+    let mut seen = BTreeMap::new();
     let key = |mutant: &&Mutant| {
         let span = bytes(text, mutant);
         // Outside any body: the line it is in.
@@ -65,6 +66,11 @@ pub fn keys(text: &str, mutants: &[&Mutant]) -> Result<Vec<u64>, String> {
         let mut sum = DefaultHasher::new();
         let place = (span.start - body.start, span.len());
         (&mutant.file, text.get(body).unwrap_or(""), place, &mutant.replacement).hash(&mut sum);
+        let before = seen.entry(sum.finish()).or_insert(0_usize);
+        if *before > 0 {
+            before.hash(&mut sum);
+        }
+        *before += 1;
         sum.finish()
     };
     Ok(mutants.iter().map(key).collect())
@@ -109,6 +115,17 @@ mod tests {
         assert_eq!(here, key("// Moved.\n\nfn f() { 1 + 2 + 3 }", 3, 12));
         assert_ne!(here, key("fn f() { 1 + 2 + 3 }", 1, 16));
         assert_ne!(here, key("fn f() { 1 + 2 + 4 }", 1, 12));
+    }
+
+    #[test]
+    fn functions_of_the_same_text_are_told_apart() {
+        let text = "fn f() { 1 + 2 }\nfn g() { 1 + 2 }";
+        let at = |line| (Place { line, column: 12 }, Place { line, column: 13 });
+        let mutant =
+            |line| Mutant { file: "src/a.rs".into(), name: "m".into(), span: at(line), replacement: "-".into() };
+        let keys = keys(text, &[&mutant(1), &mutant(2)]).unwrap();
+        assert_ne!(keys[0], keys[1]);
+        assert_eq!(keys[0], key("fn f() { 1 + 2 }", 1, 12), "the first keeps the key that it has alone");
     }
 
     #[test]
