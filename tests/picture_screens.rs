@@ -80,6 +80,21 @@ fn all_methods_at_once() {
     both("consensus", "C g h");
 }
 
+/// At 80 columns the card is too small for their names: with room it has them.
+#[test]
+fn the_whole_card_names_the_methods_that_flag_the_sample() {
+    for size in [(80, 24), (120, 40)] {
+        let bench = Bench::on("demo.csv", UNICODE_DARK).size(size).keys("C g h 5 w");
+        let (ballot, at) = (&bench.0.state().consensus.as_ref().unwrap().ballot, bench.0.state().cursor);
+        let others = ballot.others(at);
+        assert!(!others.is_empty() && others.len() < ballot.methods() - others.len(), "{others:?}");
+        let shown: String = bench.frame().split_whitespace().collect::<Vec<_>>().join(" ");
+        let said =
+            format!("{} of {} methods flag it: all but {}", ballot.votes(at), ballot.methods(), others.join(", "));
+        assert!(shown.contains(&said), "{said}\n{}", bench.frame());
+    }
+}
+
 #[test]
 fn a_second_channel_on_a_wide_screen() {
     let bench = Bench::on("demo.csv", UNICODE_DARK).size((200, 60)).keys("d d n n n");

@@ -1,5 +1,6 @@
 //! A against B, and all methods at once, in words.
 
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
 use super::super::action::Action;
@@ -68,13 +69,11 @@ fn differences(model: &Model, pinned: &Pinned) -> Vec<String> {
     rows
 }
 
-/// How many methods flag a sample, and which, for the card: up to two lines.
-pub(super) fn votes(model: &Model, position: usize, width: u16) -> Vec<Line<'static>> {
-    let Some(consensus) = model.state().consensus.as_deref() else { return Vec::new() };
-    let ballot = &consensus.ballot;
+/// How many methods flag a sample, which, and how that is shown; none before they were asked.
+pub(super) fn votes_words(model: &Model, position: usize) -> Option<(String, String, Style)> {
+    let ballot = &model.state().consensus.as_deref()?.ballot;
     let (votes, of) = (ballot.votes(position), ballot.methods());
-    let theme = &model.theme;
-    let style = if votes >= ballot.half() { theme.over } else { theme.text };
+    let style = if votes >= ballot.half() { model.theme.over } else { model.theme.text };
     // The shorter list says as much.
     let names = match (ballot.voters(position), ballot.others(position)) {
         (voters, _) if voters.is_empty() => String::new(),
@@ -82,7 +81,13 @@ pub(super) fn votes(model: &Model, position: usize, width: u16) -> Vec<Line<'sta
         (voters, others) if voters.len() <= others.len() => format!(": {}", voters.join(", ")),
         (_, others) => format!(": all but {}", others.join(", ")),
     };
-    let head = format!("{votes} of {of} methods flag it");
+    Some((format!("{votes} of {of} methods flag it"), names, style))
+}
+
+/// How many methods flag a sample, and which, for the card: up to two lines.
+pub(super) fn votes(model: &Model, position: usize, width: u16) -> Vec<Line<'static>> {
+    let Some((head, names, style)) = votes_words(model, position) else { return Vec::new() };
+    let theme = &model.theme;
     let lines = wrapped(&format!("{head}{names}"), usize::from(width).saturating_sub(3));
     let line = |(i, text): (usize, String)| match text.strip_prefix(&head) {
         Some(rest) if i == 0 => {

@@ -9,6 +9,8 @@ use ratatui::widgets::Widget;
 use super::super::super::action::Action;
 use super::super::super::model::Model;
 use super::super::super::update::mark_at;
+use super::super::compare::votes_words;
+use super::super::parameters::wrapped;
 use super::super::queue::ratio_text;
 use super::super::{short, thousands};
 use super::{state_word, why, written};
@@ -29,8 +31,13 @@ pub(super) fn draw(model: &Model, series: &Series<'_>, mark: Option<&Mark>, body
     let i = model.state().cursor;
     let mut lines: Vec<Line<'static>> = facts(model, series, i, mark)
         .into_iter()
-        .map(|(name, value, style)| {
-            Line::from(vec![Span::styled(format!(" {name:<12}"), model.theme.dim), Span::styled(value, style)])
+        .flat_map(|(name, value, style)| {
+            let names = std::iter::once(name).chain(std::iter::repeat(""));
+            let value = wrapped(&value, usize::from(body.width).saturating_sub(14).max(1));
+            let line = |(name, part): (&str, String)| {
+                Line::from(vec![Span::styled(format!(" {name:<12}"), model.theme.dim), Span::styled(part, style)])
+            };
+            names.zip(value).map(line).collect::<Vec<_>>()
         })
         .collect();
     let room = usize::from(body.height).saturating_sub(lines.len() + 2);
@@ -78,6 +85,9 @@ fn facts(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> V
     if let Some(said) = mark.filter(|m| m.conflict()).and_then(|m| m.said) {
         let text = format!("when that was decided, the method said {}", said.word());
         facts.push(("conflict", text, theme.warning));
+    }
+    if let Some((count, names, style)) = votes_words(model, i) {
+        facts.push(("all methods", format!("{count}{names}"), style));
     }
     let elsewhere = elsewhere(model, series.row(i));
     if !elsewhere.is_empty() {
