@@ -308,9 +308,21 @@ fn joint_channels_are_flagged_together_where_they_are_present() {
     assert!(positions(&alone[0], Verdict::Outlier).is_empty());
 }
 
+/// A record with a single spike, a patch to be filled in, and a leap after which the model is lost.
+fn troubled() -> Record {
+    let mut record = record(300).with([60, 101, 102, 103], 30.0);
+    record.y[200..].iter_mut().for_each(|y| *y += 500.0);
+    record
+}
+
+fn same(a: &[f64], b: &[f64]) -> bool {
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-9 || (a.is_nan() && b.is_nan());
+    a.len() == b.len() && a.iter().zip(b).all(near)
+}
+
 #[test]
 fn one_channel_jointly_is_the_single_test_with_the_gate_of_chi_square() {
-    let record = spiked();
+    let record = troubled();
     let series = Series::new(&record.t, &record.y);
     let joint = settings("kalman", &[("test", "joint")]);
     let several = together(&[&series], &joint);
@@ -318,10 +330,37 @@ fn one_channel_jointly_is_the_single_test_with_the_gate_of_chi_square() {
     let scales = noise::scales(&series, &cuts, &joint, &Stop::never()).expect("nobody stops it");
     let segment = Segment::of(&series, &cuts[0], scales[0], None);
     let single = method("kalman").judge(&segment, &joint, &Stop::never()).expect("nobody stops it");
-    assert_eq!(several[0].verdict, single.verdict);
-    for (a, b) in several[0].tolerance.iter().zip(&single.tolerance) {
-        assert!((a - b).abs() < 1e-12 || (a.is_nan() && b.is_nan()));
+    assert!([60, 101, 102, 103].iter().all(|&i| single.verdict[i] == Verdict::Outlier), "{:?}", single.verdict);
+    assert!(!single.restarts.is_empty() && single.own.iter().any(|own| own.is_finite()));
+    assert_eq!((&several[0].verdict, &several[0].restarts), (&single.verdict, &single.restarts));
+    for (a, b) in [
+        (&several[0].expected, &single.expected),
+        (&several[0].tolerance, &single.tolerance),
+        (&several[0].own, &single.own),
+    ] {
+        assert!(same(a, b), "{a:?}\n{b:?}");
     }
+}
+
+/// A channel that lacks some samples is told of the same moments as the one that has them all.
+#[test]
+fn a_joint_restart_has_the_place_of_its_sample_in_each_channel() {
+    let (whole, mut part) = (troubled(), troubled());
+    let lacking = [20, 21, 150];
+    lacking.iter().for_each(|&i| part.y[i] = f64::NAN);
+    let (one, two) = (Series::new(&whole.t, &whole.y), Series::new(&part.t, &part.y));
+    let judged = together(&[&one, &two], &settings("kalman", &[("test", "joint")]));
+    assert!(!judged[0].restarts.is_empty() && judged[0].restarts.iter().all(|r| r.at > 150));
+    let moved: Vec<usize> = judged[0].restarts.iter().map(|r| r.at - lacking.len()).collect();
+    assert_eq!(judged[1].restarts.iter().map(|r| r.at).collect::<Vec<_>>(), moved);
+    let kept = |values: &[f64]| {
+        let own = values.iter().enumerate().filter(|(i, _)| !lacking.contains(i)).map(|(_, v)| *v);
+        own.collect::<Vec<f64>>()
+    };
+    // Both measure the same: from a while after what one of them lacks on, the same is expected of them.
+    let late = |values: &[f64]| values[220..].to_vec();
+    assert!(same(&late(&kept(&judged[0].expected)), &late(&judged[1].expected)));
+    assert_eq!(judged[1].own.len(), 297);
 }
 
 #[test]
