@@ -189,10 +189,9 @@ fn confirm(model: &Model, area: Rect, buffer: &mut Buffer) {
     let key = |k: &str, words: String| {
         Line::from(vec![Span::styled(format!("{k:5}"), model.theme.key), Span::styled(words, model.theme.text)])
     };
-    let changes = model.history.len();
     let room = usize::from(inside.width).saturating_sub("w    save to  and quit".len());
     let lines = vec![
-        Line::styled(format!("The session has changes that are not saved ({changes} to undo)."), model.theme.warning),
+        Line::styled("The session has changes that are not saved.", model.theme.warning),
         Line::default(),
         // The end of a path says most, and what the key does is after it.
         key("w", format!("save to {} and quit", end_of(&printable(&path.display().to_string()), room))),
