@@ -95,6 +95,33 @@ fn the_whole_card_names_the_methods_that_flag_the_sample() {
     }
 }
 
+/// Where the card has no room for their names, they stand below the picture; there the picture keeps its place.
+#[test]
+fn below_its_picture_the_methods_that_flag_the_sample_are_named() {
+    for (size, keys) in [((80, 24), "C"), ((109, 40), "C"), ((80, 24), "C 2 w"), ((60, 16), "C 2 w")] {
+        let mut bench = Bench::on("demo.csv", UNICODE_DARK).size(size).keys(keys);
+        let heading = |bench: &Bench| bench.frame().lines().position(|line| line.contains("2 all methods"));
+        let (at, mut seen) = (heading(&bench), Vec::new());
+        assert!(at.is_some(), "{}", bench.frame());
+        // Single votes and most of them, few names and many.
+        for row in (1..2356).step_by(97).chain([61, 91, 200, 323, 485]) {
+            bench = bench.keys(&format!("/#{row} Enter"));
+            let (ballot, cursor) = (&bench.0.state().consensus.as_ref().unwrap().ballot, bench.0.state().cursor);
+            let (voters, others) = (ballot.voters(cursor), ballot.others(cursor));
+            let names = match (voters.len(), others.len()) {
+                (0, _) => "no method".to_owned(),
+                (a, b) if a <= b => voters.join(", "),
+                _ => format!("all but {}", others.join(", ")),
+            };
+            let shown: String = bench.frame().split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(shown.contains(&format!("#{row} flagged by {names}")), "{names}\n{}", bench.frame());
+            assert_eq!(heading(&bench), at);
+            seen.push(voters.len());
+        }
+        assert!(seen.contains(&0) && seen.iter().any(|n| *n > 9), "{seen:?}");
+    }
+}
+
 #[test]
 fn a_second_channel_on_a_wide_screen() {
     let bench = Bench::on("demo.csv", UNICODE_DARK).size((200, 60)).keys("d d n n n");

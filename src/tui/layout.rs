@@ -3,7 +3,7 @@
 use ratatui::layout::Rect;
 
 use super::action::Panel;
-use super::model::Model;
+use super::model::{LowerKind, Model};
 use super::plot::GUTTER;
 
 /// The least size with something to see.
@@ -29,6 +29,9 @@ pub struct Areas {
     pub second: Option<Rect>,
     /// The residual with its heading.
     pub residual: Option<Rect>,
+    /// The methods that flag the sample under the cursor, below the picture of all methods, where the card has no room
+    /// to name them.
+    pub voters: Option<Rect>,
     /// Method and parameters with their heading.
     pub parameters: Option<Rect>,
     /// The queue with its heading.
@@ -51,13 +54,14 @@ pub fn arrange(model: &Model) -> Option<Areas> {
         return None;
     }
     let whole = Rect { x: 0, y: 0, width, height };
+    let voters = model.lower.kind == LowerKind::Consensus;
     if model.maximised {
-        return Some(maximised(whole, model.focus));
+        return Some(maximised(whole, model.focus, voters));
     }
     Some(if width >= WIDE && height >= 24 {
         wide(whole, width >= SECOND && model.second_plan().is_some())
     } else {
-        compact(whole, model.focus)
+        compact(whole, model.focus, voters)
     })
 }
 
@@ -102,6 +106,7 @@ fn wide(whole: Rect, second: bool) -> Areas {
         overview: Some(overview),
         trace: Some(rest),
         residual: Some(residual),
+        voters: None,
         parameters: Some(parameters),
         queue: Some(column),
         card: Some(card),
@@ -111,7 +116,13 @@ fn wide(whole: Rect, second: bool) -> Areas {
     }
 }
 
-fn compact(whole: Rect, focus: Panel) -> Areas {
+/// Rows for the names of the methods that flag a sample: as many whatever their number, so that the picture keeps its
+/// place while the cursor moves. The shorter list of two is shown, half of all methods at most.
+fn rows_of_voters(width: u16) -> u16 {
+    if width >= 72 { 2 } else { 3 }
+}
+
+fn compact(whole: Rect, focus: Panel, voters: bool) -> Areas {
     let mut rest = whole;
     let title = top(&mut rest, 1);
     let footer = bottom(&mut rest, 1);
@@ -121,7 +132,11 @@ fn compact(whole: Rect, focus: Panel) -> Areas {
     let knobs = (!small).then(|| bottom(&mut rest, 1));
     let card = bottom(&mut rest, if small { 2 } else { 3 });
     let quarter = rest.height / 4;
-    let residual = (whole.height >= 24 && !small).then(|| bottom(&mut rest, quarter.clamp(5, 9)));
+    let lower = whole.height >= 24 && !small;
+    let voters = (lower && voters).then(|| bottom(&mut rest, rows_of_voters(whole.width)));
+    // A row less for the picture above the names: three still tell all counts of votes apart.
+    let height = quarter.clamp(5, 9) - u16::from(voters.is_some());
+    let residual = lower.then(|| bottom(&mut rest, height));
     // The drawer lies over the plots while one of its panels has the keyboard.
     let drawer = Rect {
         x: whole.width - SIDE.min(whole.width),
@@ -138,6 +153,7 @@ fn compact(whole: Rect, focus: Panel) -> Areas {
         trace: Some(rest),
         second,
         residual,
+        voters,
         parameters,
         queue,
         card: Some(card),
@@ -147,12 +163,13 @@ fn compact(whole: Rect, focus: Panel) -> Areas {
     }
 }
 
-fn maximised(whole: Rect, focus: Panel) -> Areas {
+fn maximised(whole: Rect, focus: Panel, voters: bool) -> Areas {
     let mut rest = whole;
     let title = top(&mut rest, 1);
     let footer = bottom(&mut rest, 1);
     let toast = bottom(&mut rest, 1);
-    let mut areas = Areas { title, toast, footer, ..Areas::default() };
+    let voters = (voters && focus == Panel::Residual).then(|| bottom(&mut rest, rows_of_voters(whole.width)));
+    let mut areas = Areas { title, voters, toast, footer, ..Areas::default() };
     let slot = match focus {
         Panel::Trace => &mut areas.trace,
         Panel::Residual => &mut areas.residual,
@@ -197,6 +214,26 @@ pub fn trace_parts(area: Rect, pinned: bool) -> TraceParts {
     TraceParts { head, body, rail, sides, axis }
 }
 
+/// The parts of the area of the second channel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SecondParts {
+    /// The heading.
+    pub head: Rect,
+    /// Labels and curve.
+    pub body: Rect,
+    /// The rail.
+    pub rail: Rect,
+}
+
+/// Divides the area of the second channel.
+#[must_use]
+pub fn second_parts(area: Rect) -> SecondParts {
+    let mut body = area;
+    let head = top(&mut body, 1);
+    let rail = bottom(&mut body, 1);
+    SecondParts { head, body, rail }
+}
+
 /// The inside of a panel that is a drawer over the plots, beside its edge.
 #[must_use]
 pub fn drawer(area: Rect) -> Rect {
@@ -218,12 +255,12 @@ mod tests {
     #[test]
     fn panels_lie_on_the_screen_and_side_by_side_at_every_size() {
         for width in LEAST.0..200 {
-            for height in LEAST.1..70 {
+            for (height, voters) in (LEAST.1..70).flat_map(|height| [(height, false), (height, true)]) {
                 let whole = Rect { x: 0, y: 0, width, height };
                 let areas = if width >= WIDE && height >= 24 {
                     wide(whole, width % 2 == 0)
                 } else {
-                    compact(whole, Panel::Trace)
+                    compact(whole, Panel::Trace, voters)
                 };
                 let panels = [
                     Some(areas.title),
@@ -231,6 +268,7 @@ mod tests {
                     areas.trace,
                     areas.second,
                     areas.residual,
+                    areas.voters,
                     areas.parameters,
                     areas.queue,
                     areas.card,

@@ -20,7 +20,7 @@ mod footer;
 mod help;
 mod journal;
 mod lower;
-mod overlay;
+pub(super) mod overlay;
 mod palette;
 pub(super) mod parameters;
 mod plain;
@@ -64,6 +64,9 @@ fn draw_panels(model: &Model, area: Rect, buffer: &mut Buffer) {
     }
     if let Some(area) = areas.residual {
         plots.lower(area, buffer);
+    }
+    if let Some(area) = areas.voters {
+        compare::voters(model, area, buffer);
     }
     if let Some(area) = areas.card {
         card::draw(model, area, buffer);

@@ -1,14 +1,18 @@
 //! A against B, and all methods at once, in words.
 
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
+use ratatui::widgets::Widget;
 
 use super::super::action::Action;
 use super::super::model::{Model, Pinned};
 use super::parameters::wrapped;
-use super::thousands;
+use super::{clear, fit, thousands};
 use crate::param::{Settings, Value};
 use crate::plot::Side;
+use crate::session::Ballot;
 
 /// How many samples only A, only B and both flag, for the heading of the trace.
 pub(super) fn counts(model: &Model) -> Option<String> {
@@ -74,14 +78,39 @@ pub(super) fn votes_words(model: &Model, position: usize) -> Option<(String, Str
     let ballot = &model.state().consensus.as_deref()?.ballot;
     let (votes, of) = (ballot.votes(position), ballot.methods());
     let style = if votes >= ballot.half() { model.theme.over } else { model.theme.text };
-    // The shorter list says as much.
-    let names = match (ballot.voters(position), ballot.others(position)) {
-        (voters, _) if voters.is_empty() => String::new(),
-        (_, others) if others.is_empty() => ": all".to_owned(),
-        (voters, others) if voters.len() <= others.len() => format!(": {}", voters.join(", ")),
-        (_, others) => format!(": all but {}", others.join(", ")),
-    };
+    let names = who_votes(ballot, position).map_or_else(String::new, |names| format!(": {names}"));
     Some((format!("{votes} of {of} methods flag it"), names, style))
+}
+
+/// The methods that flag a sample, or all but those that do not where that list is shorter; none where nobody does.
+fn who_votes(ballot: &Ballot, position: usize) -> Option<String> {
+    match (ballot.voters(position), ballot.others(position)) {
+        (voters, _) if voters.is_empty() => None,
+        (_, others) if others.is_empty() => Some("all".to_owned()),
+        (voters, others) if voters.len() <= others.len() => Some(voters.join(", ")),
+        (_, others) => Some(format!("all but {}", others.join(", "))),
+    }
+}
+
+/// The methods that flag the sample under the cursor, below the picture of all methods.
+pub(super) fn voters(model: &Model, area: Rect, buffer: &mut Buffer) {
+    clear(area, buffer);
+    let Some(consensus) = model.state().consensus.as_deref() else { return };
+    let row = model.series().row_of(model.state().cursor).map_or(String::new(), |row| format!("#{} ", row + 1));
+    let names = match who_votes(&consensus.ballot, model.state().cursor) {
+        Some(names) => format!("{row}flagged by {names}"),
+        None => format!("{row}flagged by no method"),
+    };
+    let width = usize::from(area.width).saturating_sub(2).max(1);
+    let mut lines = wrapped(&names, width);
+    let height = usize::from(area.height);
+    if lines.len() > height {
+        let rest = lines.drain(height.saturating_sub(1)..).collect::<Vec<_>>().join(" ");
+        lines.push(fit(&rest, width));
+    }
+    for (line, row) in lines.into_iter().zip(area.rows()) {
+        Line::styled(format!(" {line}"), model.theme.dim).render(row, buffer);
+    }
 }
 
 /// How many methods flag a sample, and which, for the card: up to two lines.
