@@ -1,5 +1,6 @@
 //! What lies under a cell of the screen.
 
+use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::action::Panel;
@@ -8,6 +9,7 @@ use super::model::Model;
 use super::picture::Picture;
 use super::plot::TracePlot;
 use super::update::queue::window;
+use super::view::overlay;
 use super::view::parameters::Rows;
 
 /// How many columns away from a flag a click still means it.
@@ -24,6 +26,9 @@ pub(super) enum Spot {
     Rail(f64, Option<usize>),
     /// The residual, at this place on the x axis; with the sample.
     Residual(f64, Option<usize>),
+    /// The channel beside the one on the screen, at this place on the x axis; with the sample of the one on the screen
+    /// that is nearest in time to what the cell points at.
+    Second(f64, Option<usize>),
     /// The queue; with the index of the flag.
     Queue(Option<usize>),
     /// The parameters; with the index of the knob.
@@ -43,14 +48,16 @@ impl Spot {
             Self::Queue(_) => Some(Panel::Queue),
             Self::Parameters(_) => Some(Panel::Parameters),
             Self::Card => Some(Panel::Card),
-            Self::Overview(_) | Self::Elsewhere => None,
+            Self::Overview(_) | Self::Second(..) | Self::Elsewhere => None,
         }
     }
 
     /// The place on the x axis it is at.
     pub(super) fn x(self) -> Option<f64> {
         match self {
-            Self::Overview(x) | Self::Trace(x, _) | Self::Rail(x, _) | Self::Residual(x, _) => Some(x),
+            Self::Overview(x) | Self::Trace(x, _) | Self::Rail(x, _) | Self::Residual(x, _) | Self::Second(x, _) => {
+                Some(x)
+            }
             Self::Queue(_) | Self::Parameters(_) | Self::Card | Self::Elsewhere => None,
         }
     }
@@ -75,6 +82,9 @@ pub(super) fn spot(model: &Model, column: u16, row: u16) -> Spot {
     if let Some(area) = inside(areas.trace) {
         return trace(model, area, column, row);
     }
+    if let Some(area) = inside(areas.second) {
+        return second(model, area, column, row).unwrap_or(Spot::Elsewhere);
+    }
     if let Some(area) = inside(areas.residual) {
         let plot = TracePlot::plot_area(below_heading(area));
         let view = model.state().view;
@@ -97,7 +107,37 @@ fn trace(model: &Model, area: Rect, column: u16, row: u16) -> Spot {
     if !plot.contains((column, row).into()) {
         return Spot::Elsewhere;
     }
-    Spot::Trace(x, picture.pointed(size, (column - plot.x, row - plot.y), NEAR))
+    let columns = picture.trace(size);
+    let after = model.state().after;
+    Spot::Trace(x, picture.pointed(&columns, after, (column - plot.x, row - plot.y), NEAR))
+}
+
+/// What the second channel has there, as a time of the one on the screen.
+fn second(model: &Model, area: Rect, column: u16, row: u16) -> Option<Spot> {
+    let plan = model.second_plan()?;
+    let parts = layout::second_parts(area);
+    let plot = TracePlot::plot_area(parts.body);
+    let at = column.checked_sub(plot.x).filter(|at| *at < plot.width && row >= plot.y)?;
+    let (main, picture) = (Picture::of(model, model.shown), Picture::of(model, plan));
+    let columns = picture.beside(&main, (plot.width, parts.body.height));
+    let flag = columns.flag_in(&model.channels[plan].flags, at).filter(|_| row == parts.rail.y);
+    let cell = (at, (row - plot.y).min(plot.height.saturating_sub(1)));
+    let sample = flag.or_else(|| picture.pointed(&columns, false, cell, NEAR))?;
+    let nearest = model.nearest(*picture.series.t.get(sample)?)?;
+    let view = model.state().view;
+    // By number, the samples of the two channels need not lie in the same columns.
+    #[expect(clippy::cast_precision_loss, reason = "positions are below 2^32")]
+    let x = if model.by_number { Some(nearest as f64) } else { x_at(plot, (view.from, view.to), column) };
+    Some(Spot::Second(x?, Some(nearest)))
+}
+
+/// The index of the row at this place of what lies over the panels, where it can be chosen.
+pub(super) fn choice(model: &Model, column: u16, row: u16) -> Option<usize> {
+    // Only drawing knows where its rows come to lie: it is asked for, and thrown away.
+    layout::arrange(model)?;
+    let area = Rect { x: 0, y: 0, width: model.size.0, height: model.size.1 };
+    let choices = overlay::draw(model, area, &mut Buffer::empty(area));
+    choices.into_iter().find(|choice| choice.place.contains((column, row).into())).map(|choice| choice.index)
 }
 
 /// The place on the x axis in the middle of a column of a plot; none left or right of it.

@@ -72,6 +72,8 @@ pub struct Model {
     pub mouse: bool,
     /// The cell of the trace in which a button went down, until it comes up.
     pub pressed: Option<(u16, u16)>,
+    /// The cell in which the last click chose a row of a list, as long as nothing else has moved that list.
+    pub clicked: Option<(u16, u16)>,
     /// The lines that were run in the palette, the last one last.
     pub lines: Vec<String>,
     /// The last jump, to be repeated.
@@ -156,6 +158,7 @@ impl Model {
             keys: Keys::default(),
             mouse: false,
             pressed: None,
+            clicked: None,
             lines: Vec::new(),
             jumped: None,
             awaited: None,

@@ -137,18 +137,23 @@ impl<'a> Picture<'a> {
         })
     }
 
-    /// The sample that a cell of the trace points at: the nearest flag at most `near` columns away, else the sample
-    /// that is drawn nearest to the cell.
-    pub(super) fn pointed(&self, size: (u16, u16), (column, row): (u16, u16), near: u16) -> Option<usize> {
-        let columns = self.trace(size);
+    /// The sample that a cell of a trace points at: the nearest flag at most `near` columns away, else the sample that
+    /// is drawn nearest to the cell. `after` when the trace shows the record after repair, without flags.
+    pub(super) fn pointed(
+        &self,
+        columns: &Columns,
+        after: bool,
+        (column, row): (u16, u16),
+        near: u16,
+    ) -> Option<usize> {
+        let size = (columns.grid().width, columns.grid().height);
         let (first, last) = (column.saturating_sub(near), column.saturating_add(near).min(size.0.saturating_sub(1)));
         let mut cells: Vec<(u16, u16)> = (first..=last).flat_map(|c| (0..size.1).map(move |r| (c, r))).collect();
         // A cell is about twice as high as it is wide.
         cells.sort_by_key(|(c, r)| c.abs_diff(column) + 2 * r.abs_diff(row));
-        let flags = if self.state.after { &self.no_flags } else { &self.state.flags };
+        let flags = if after { &self.no_flags } else { &self.state.flags };
         let flag = cells.into_iter().find_map(|(c, r)| columns.flag_at(flags, c, r));
-        let (layers, after) = (self.state.layers, self.state.after);
-        flag.or_else(|| self.with_trace(layers, after, |trace| columns.sample_at(trace, column, row)))
+        flag.or_else(|| self.with_trace(self.state.layers, after, |trace| columns.sample_at(trace, column, row)))
             .or_else(|| columns.position_at(self.axis(), column))
     }
 

@@ -31,6 +31,7 @@ mod pictures;
 pub(super) mod queue;
 mod recover;
 mod review;
+mod rows;
 mod tune;
 
 pub use command::{COMMANDS, Command};
@@ -54,6 +55,7 @@ pub fn update(model: &mut Model, message: Message) -> Vec<Effect> {
 fn take(model: &mut Model, message: Message) -> Vec<Effect> {
     match message {
         Message::Key(key) => {
+            model.clicked = None;
             if !matches!(model.overlay, Overlay::None) {
                 return overlay::key(model, key);
             }

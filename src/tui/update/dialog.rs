@@ -15,8 +15,8 @@ mod opening;
 
 pub(super) use browser::browse;
 pub(super) use export::{dialog as export_dialog, one as export_one};
-pub(super) use loader::correct;
 pub use loader::{FIELDS, Field};
+pub(super) use loader::{change_key, correct};
 pub(super) use opening::open;
 
 /// A key while a dialog is there.
@@ -38,6 +38,27 @@ pub(super) fn key(model: &mut Model, dialog: Dialog, key: KeyEvent) -> Vec<Effec
         Dialog::Unsaved(request) => unsaved(model, request, key),
         Dialog::Over(over) => overwrite(model, over, key),
     }
+}
+
+/// The row under the cursor and how many there are, in a dialog that lists rows and has none of them typed in.
+pub(super) fn rows(dialog: &Dialog) -> Option<(usize, usize)> {
+    match dialog {
+        Dialog::Browser(browser) => Some((browser.choice, browser.narrowed().len())),
+        Dialog::Loader(form) if form.typing.is_none() => Some((form.choice, FIELDS.len())),
+        Dialog::Export(form) if form.typing.is_none() => Some((form.choice, form.rows.len())),
+        Dialog::Loader(_) | Dialog::Export(_) | Dialog::Waiting(_) | Dialog::Unsaved(_) | Dialog::Over(_) => None,
+    }
+}
+
+/// Moves the cursor to one of those rows.
+pub(super) fn choose(dialog: &mut Dialog, to: usize) -> Vec<Effect> {
+    match dialog {
+        Dialog::Browser(browser) => return browser::choose(browser, to),
+        Dialog::Loader(form) => form.choice = to,
+        Dialog::Export(form) => form.choice = to,
+        Dialog::Waiting(_) | Dialog::Unsaved(_) | Dialog::Over(_) => {}
+    }
+    Vec::new()
 }
 
 /// Pasted text goes where text is typed.

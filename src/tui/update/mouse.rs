@@ -1,5 +1,6 @@
 //! The mouse: pointing, zooming and panning. It decides on nothing: a slip of the hand changes no result, but for
-//! the wheel over the parameters, which says what it does and can be undone.
+//! the wheel over the parameters and a second click on what was chosen in a list, which say what they do and can be
+//! undone.
 
 use ratatui::crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
@@ -8,7 +9,7 @@ use super::super::hit::{Spot, spot};
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Tone};
 use super::super::words::{self, counted};
-use super::{act as perform, navigate, overlay};
+use super::{act as perform, navigate, rows};
 
 /// How much of the view a step of the wheel pans.
 const WHEEL_PAN: f64 = 0.1;
@@ -22,10 +23,11 @@ pub(super) fn act(model: &mut Model, event: MouseEvent) -> Vec<Effect> {
         _ => None,
     };
     if !matches!(model.overlay, Overlay::None) {
-        if let Some(up) = wheel {
-            overlay::scroll(model, up);
-        }
-        return Vec::new();
+        return match (event.kind, wheel) {
+            (_, Some(up)) => rows::scroll(model, up),
+            (MouseEventKind::Down(MouseButton::Left), _) => rows::click(model, (event.column, event.row)),
+            _ => Vec::new(),
+        };
     }
     let under = spot(model, event.column, event.row);
     let sideways = event.modifiers.contains(KeyModifiers::SHIFT);
@@ -73,6 +75,8 @@ fn press(model: &mut Model, under: Spot, cell: (u16, u16)) -> Vec<Effect> {
                 navigate::go_to(model, position);
             }
         }
+        // The other channel is over the same times.
+        Spot::Second(_, Some(position)) => navigate::go_to(model, position),
         Spot::Overview(x) => {
             let position = model.nearest_x(x);
             navigate::centre(model, x);
@@ -92,7 +96,7 @@ fn press(model: &mut Model, under: Spot, cell: (u16, u16)) -> Vec<Effect> {
         }
         Spot::Parameters(Some(index)) if index == model.state().knob => return perform(model, Action::TypeValue),
         Spot::Parameters(Some(index)) => model.state_mut().knob = index,
-        Spot::Queue(None) | Spot::Parameters(None) | Spot::Card | Spot::Elsewhere => {}
+        Spot::Second(_, None) | Spot::Queue(None) | Spot::Parameters(None) | Spot::Card | Spot::Elsewhere => {}
     }
     Vec::new()
 }

@@ -130,28 +130,6 @@ pub(super) fn paste(model: &mut Model, text: &str) -> Vec<Effect> {
     Vec::new()
 }
 
-/// The wheel over what lies over the panels: help, lists and the palette move by a line or a few.
-pub(super) fn scroll(model: &mut Model, up: bool) {
-    match std::mem::take(&mut model.overlay) {
-        Overlay::Help(filter, from) => {
-            let from = if up { from.saturating_sub(3) } else { from + 3 };
-            model.overlay = Overlay::Help(filter, from);
-        }
-        Overlay::Picker(mut picker) => {
-            let last = narrowed(model, &picker).len().saturating_sub(1);
-            picker.choice = if up { picker.choice.saturating_sub(1) } else { (picker.choice + 1).min(last) };
-            model.overlay = Overlay::Picker(picker);
-        }
-        Overlay::Prompt(mut prompt) => {
-            if prompt.kind == PromptKind::Command {
-                palette::walk(model, &mut prompt, !up);
-            }
-            model.overlay = Overlay::Prompt(prompt);
-        }
-        other => model.overlay = other,
-    }
-}
-
 fn control(key: KeyEvent) -> bool {
     key.modifiers.contains(KeyModifiers::CONTROL)
 }

@@ -7,18 +7,19 @@ use ratatui::text::{Line, Span};
 
 use super::super::model::{Dialog, Model, Over, Waiting};
 use super::fit;
-use super::overlay::{popup, rows};
+use super::overlay::{Choice, popup, rows};
 use crate::track::printable;
 
 mod browser;
 mod export;
 mod loader;
 
-pub(super) fn draw(model: &Model, dialog: &Dialog, area: Rect, buffer: &mut Buffer) {
+/// Draws a dialog; gives the rows that can be chosen.
+pub(super) fn draw(model: &Model, dialog: &Dialog, area: Rect, buffer: &mut Buffer) -> Vec<Choice> {
     match dialog {
-        Dialog::Browser(browser) => browser::draw(model, browser, area, buffer),
-        Dialog::Loader(form) => loader::draw(model, form, area, buffer),
-        Dialog::Export(form) => export::draw(model, form, area, buffer),
+        Dialog::Browser(browser) => return browser::draw(model, browser, area, buffer),
+        Dialog::Loader(form) => return loader::draw(model, form, area, buffer),
+        Dialog::Export(form) => return export::draw(model, form, area, buffer),
         Dialog::Waiting(waiting) => wait(model, waiting, area, buffer),
         Dialog::Unsaved(request) => {
             let name = fit(&printable(&request.source.name()), 40);
@@ -33,6 +34,7 @@ pub(super) fn draw(model: &Model, dialog: &Dialog, area: Rect, buffer: &mut Buff
             question(model, "overwrite?", &first, &[("o", "overwrite it"), ("Esc", "leave it")], area, buffer);
         }
     }
+    Vec::new()
 }
 
 /// A question with the keys that answer it.

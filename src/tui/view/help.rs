@@ -101,8 +101,9 @@ fn lines(model: &Model, filter: &str, width: usize) -> Vec<Line<'static>> {
 const MOUSE: &[(&str, &str)] = &[
     ("click", "cursor to the flag near it, else the sample; focus the panel"),
     ("click in the queue", "go to the flag; a second click zooms to it"),
+    ("click in a list", "choose the row; a second click does what Enter does, or changes the row"),
     ("click on a rail", "go to the first flag of the column; on the overview: go there"),
-    ("wheel", "zoom at the pointer; walk the queue; turn the active parameter"),
+    ("wheel", "zoom at the pointer; walk the queue or a list; turn the active parameter"),
     ("Shift-wheel", "pan"),
     ("drag", "select a range, as v does"),
     ("right drag", "move the record"),

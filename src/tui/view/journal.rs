@@ -9,9 +9,9 @@ use super::super::model::Model;
 use super::super::plot::Glyphs;
 use super::super::update::describe;
 use super::fit;
-use super::overlay::popup;
+use super::overlay::{Choice, popup};
 
-pub(super) fn draw(model: &Model, at: usize, area: Rect, buffer: &mut Buffer) {
+pub(super) fn draw(model: &Model, at: usize, area: Rect, buffer: &mut Buffer) -> Vec<Choice> {
     let theme = &model.theme;
     let (done, undone) = (model.history.done(), model.history.undone());
     let all = done.len() + undone.len();
@@ -25,7 +25,8 @@ pub(super) fn draw(model: &Model, at: usize, area: Rect, buffer: &mut Buffer) {
     // The chosen line in the middle, as long as there are others on both sides.
     let from = at.saturating_sub(rows / 2).min((all + 1).saturating_sub(rows));
     let separator = if model.glyphs == Glyphs::Unicode { '│' } else { '|' };
-    for (row, line) in (from..=all).take(rows).enumerate() {
+    let mut choices = Vec::new();
+    for (place, line) in body.rows().zip(from..=all) {
         let edit = match line.checked_sub(1) {
             None => None,
             Some(index) if index < done.len() => done.get(index),
@@ -45,7 +46,8 @@ pub(super) fn draw(model: &Model, at: usize, area: Rect, buffer: &mut Buffer) {
         let taken_back = if line > done.len() { "  (taken back)" } else { "" };
         let words = fit(&format!("{words}{taken_back}"), room);
         let text = Line::from(vec![Span::styled(number, theme.dim), Span::styled(words, style)]);
-        let row = u16::try_from(row).unwrap_or(u16::MAX);
-        text.render(Rect { y: body.y + row, height: 1, ..body }, buffer);
+        text.render(place, buffer);
+        choices.push(Choice { place, index: line });
     }
+    choices
 }

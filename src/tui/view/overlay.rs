@@ -14,18 +14,28 @@ use super::files::end_of;
 use super::{clear, fit};
 use crate::track::printable;
 
-pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
+/// A row that can be chosen: where it is on the screen, and its index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in super::super) struct Choice {
+    pub(in super::super) place: Rect,
+    pub(in super::super) index: usize,
+}
+
+/// Draws what lies over the panels; gives the rows that can be chosen, for the mouse: where they are is decided here
+/// alone.
+pub(in super::super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) -> Vec<Choice> {
     match &model.overlay {
+        Overlay::Picker(picker) => return list(model, picker, area, buffer),
+        Overlay::Prompt(prompt) => return line(model, prompt, area, buffer),
+        Overlay::Files(dialog) => return super::files::draw(model, dialog, area, buffer),
+        Overlay::Journal(at) => return super::journal::draw(model, *at, area, buffer),
         Overlay::None => {}
         Overlay::Help(filter, from) => super::help::draw(model, filter, *from, area, buffer),
-        Overlay::Picker(picker) => list(model, picker, area, buffer),
-        Overlay::Prompt(prompt) => line(model, prompt, area, buffer),
-        Overlay::Files(dialog) => super::files::draw(model, dialog, area, buffer),
         Overlay::ConfirmQuit => confirm(model, area, buffer),
-        Overlay::Journal(at) => super::journal::draw(model, *at, area, buffer),
         Overlay::CommandLine(line, about) => command_line(model, line, about, area, buffer),
         Overlay::Recover(found) => super::recover::draw(model, found, area, buffer),
     }
+    Vec::new()
 }
 
 /// A box of at most this size in the middle of the screen, the footer left free; gives its inside.
@@ -73,6 +83,21 @@ pub(super) fn rows(model: &Model, lines: Vec<Line<'_>>, from: usize, inside: Rec
     }
 }
 
+/// Lines as [`rows`] draws them, each with the index of what it stands for, if it can be chosen.
+pub(super) fn choices(
+    model: &Model,
+    lines: Vec<(Line<'_>, Option<usize>)>,
+    from: usize,
+    inside: Rect,
+    buffer: &mut Buffer,
+) -> Vec<Choice> {
+    let indices = lines.iter().skip(from).map(|(_, index)| *index);
+    let choice = |(place, index): (Rect, Option<usize>)| index.map(|index| Choice { place, index });
+    let choices = inside.rows().zip(indices).filter_map(choice).collect();
+    rows(model, lines.into_iter().map(|(line, _)| line).collect(), from, inside, buffer);
+    choices
+}
+
 /// A line of text with its cursor.
 pub(super) fn typed(model: &Model, before: &str, input: &Input) -> Line<'static> {
     // One character for one, so that the cursor stays where it is: what would be shown as an escape is a blot.
@@ -90,7 +115,7 @@ pub(super) fn typed(model: &Model, before: &str, input: &Input) -> Line<'static>
     ])
 }
 
-fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) {
+fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) -> Vec<Choice> {
     let theme = &model.theme;
     let title = match picker.kind {
         PickerKind::Method => "method",
@@ -110,7 +135,7 @@ fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) {
     for (i, entry) in found.iter().enumerate() {
         if entry.group != group {
             group = entry.group;
-            lines.push(Line::styled(group.to_owned(), theme.dim));
+            lines.push((Line::styled(group.to_owned(), theme.dim), None));
         }
         let chosen = i == picker.choice;
         if chosen {
@@ -119,19 +144,20 @@ fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) {
         let mark = if entry.current { '*' } else { ' ' };
         let text = format!("{}{mark} {:20}", if chosen { '>' } else { ' ' }, fit(&printable(&entry.id), 20));
         let style = if chosen { theme.focus } else { theme.text };
-        lines.push(Line::from(vec![Span::styled(text, style), Span::styled(format!(" {}", entry.help), theme.dim)]));
+        let help = Span::styled(format!(" {}", entry.help), theme.dim);
+        lines.push((Line::from(vec![Span::styled(text, style), help]), Some(i)));
     }
     if found.is_empty() {
-        lines.push(Line::styled("nothing fits", theme.dim));
+        lines.push((Line::styled("nothing fits", theme.dim), None));
     }
     let from = (choice_row + 1).saturating_sub(usize::from(body.height));
-    rows(model, lines, from, body, buffer);
+    choices(model, lines, from, body, buffer)
 }
 
 /// A prompt takes the line on which the program speaks, with what is wrong above it.
-fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
+fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) -> Vec<Choice> {
     if area.height < 3 {
-        return;
+        return Vec::new();
     }
     let before = match prompt.kind {
         PromptKind::Command => ":".to_owned(),
@@ -151,7 +177,7 @@ fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
     let most = usize::from(area.height).saturating_sub(2).min(4);
     let wrong = error.into_iter().flatten().take(most).collect::<Vec<_>>();
     let above = row.y - u16::try_from(wrong.len()).unwrap_or(0);
-    super::palette::draw(model, prompt, above, area, buffer);
+    let choices = super::palette::draw(model, prompt, above, area, buffer);
     clear(row, buffer);
     typed(model, &before, &prompt.input).render(row, buffer);
     if prompt.kind == PromptKind::Note && prompt.error.is_none() {
@@ -162,6 +188,7 @@ fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
         clear(row, buffer);
         Line::from(Span::styled(format!(" {text}"), model.theme.error)).render(row, buffer);
     }
+    choices
 }
 
 /// The command line that does the same without a screen, to be read or copied.

@@ -8,23 +8,24 @@ use unicode_width::UnicodeWidthStr;
 
 use super::super::model::{Model, Prompt, PromptKind};
 use super::super::update::{FORMS, Suggestion, chosen, suggestions};
+use super::overlay::Choice;
 use super::{clear, fit, rule};
 
 /// Rows of the list at most.
 const MOST: u16 = 12;
 
-/// Draws the list that belongs to a prompt, its last row above `bottom`.
-pub(super) fn draw(model: &Model, prompt: &Prompt, bottom: u16, area: Rect, buffer: &mut Buffer) {
+/// Draws the list that belongs to a prompt, its last row above `bottom`; gives the rows that can be chosen.
+pub(super) fn draw(model: &Model, prompt: &Prompt, bottom: u16, area: Rect, buffer: &mut Buffer) -> Vec<Choice> {
     let rows = match prompt.kind {
         PromptKind::Command => commands(model, prompt),
         PromptKind::Jump => FORMS.iter().map(|(form, help)| Row::of(form, "", help)).collect(),
-        PromptKind::Value | PromptKind::SaveAs | PromptKind::Note => return,
+        PromptKind::Value | PromptKind::SaveAs | PromptKind::Note => return Vec::new(),
     };
     // A heading, and the panels above keep some rows.
     let room = bottom.saturating_sub(area.y).saturating_sub(4).min(MOST);
     let height = u16::try_from(rows.len()).unwrap_or(u16::MAX).min(room);
     if height == 0 {
-        return;
+        return Vec::new();
     }
     let at = rows.iter().position(|row| row.chosen).unwrap_or(0);
     let visible = usize::from(height);
@@ -41,10 +42,13 @@ pub(super) fn draw(model: &Model, prompt: &Prompt, bottom: u16, area: Rect, buff
     let words = fit(&words, usize::from(area.width).saturating_sub(2));
     rule(model, vec![Span::styled(format!(" {words}"), model.theme.dim)], place, buffer);
     let widths = widths(&rows, area.width);
-    for (i, row) in rows.iter().skip(from).take(visible).enumerate() {
-        let y = place.y + 1 + u16::try_from(i).unwrap_or(0);
-        row.line(model, widths, area.width).render(Rect { y, height: 1, ..area }, buffer);
+    let mut choices = Vec::new();
+    for (place, (index, row)) in place.rows().skip(1).zip(rows.iter().enumerate().skip(from).take(visible)) {
+        row.line(model, widths, area.width).render(place, buffer);
+        choices.push(Choice { place, index });
     }
+    // The forms of a jump are there to be read.
+    if prompt.kind == PromptKind::Command { choices } else { Vec::new() }
 }
 
 /// One row: a name, keys, and what it is.

@@ -127,9 +127,3 @@ impl<'a> Plots<'a> {
         AxisLabels { view, steps, phase: 1.0, label_width, label: &label, unit: "row", theme }.render(row, buffer);
     }
 }
-
-pub(super) fn take_bottom(rest: &mut Rect) -> Rect {
-    let height = rest.height.min(1);
-    rest.height -= height;
-    Rect { y: rest.y + rest.height, height, ..*rest }
-}

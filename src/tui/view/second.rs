@@ -5,9 +5,10 @@ use ratatui::layout::Rect;
 use ratatui::text::Span as Words;
 use ratatui::widgets::Widget;
 
+use super::super::layout::{SecondParts, second_parts};
 use super::super::picture::Picture;
 use super::super::plot::{Cursor, FlagRail, TracePlot};
-use super::plots::{Plots, take_bottom};
+use super::plots::Plots;
 use super::{rule, rule_glyph, thousands};
 use crate::track::printable;
 
@@ -18,9 +19,7 @@ impl Plots<'_> {
         let Some(plan) = model.second_plan() else { return };
         let (theme, glyphs, state) = (&model.theme, model.glyphs, &model.channels[plan]);
         let picture = Picture::of(model, plan);
-        let head = Rect { height: area.height.min(1), ..area };
-        let mut body = Rect { y: area.y + head.height, height: area.height - head.height, ..area };
-        let rail_row = take_bottom(&mut body);
+        let SecondParts { head, body, rail } = second_parts(area);
         let width = TracePlot::plot_area(body).width;
         let columns = &*picture.beside(&self.picture, (width, body.height));
         // The sample nearest to the time of the cursor.
@@ -49,6 +48,6 @@ impl Plots<'_> {
         rule(model, spans, head, buffer);
         widget.render(body, buffer);
         let cursor = cursor.map(|cursor| cursor.position);
-        FlagRail { columns, theme, glyphs, label: "flags", cursor, selection: None }.render(rail_row, buffer);
+        FlagRail { columns, theme, glyphs, label: "flags", cursor, selection: None }.render(rail, buffer);
     }
 }

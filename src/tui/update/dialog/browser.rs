@@ -58,6 +58,12 @@ pub(super) fn key(model: &mut Model, mut browser: Browser, key: KeyEvent) -> Vec
     effects
 }
 
+/// Moves the cursor to a line.
+pub(super) fn choose(browser: &mut Browser, to: usize) -> Vec<Effect> {
+    (browser.choice, browser.said) = (to, None);
+    look(browser)
+}
+
 /// Asks what the choice is, unless that is known.
 fn look(browser: &Browser) -> Vec<Effect> {
     match browser.chosen() {

@@ -86,8 +86,15 @@ pub(super) fn key(model: &mut Model, mut form: LoaderForm, key: KeyEvent) -> Vec
     keep(model, Dialog::Loader(form))
 }
 
+/// The key that changes the field under the cursor: to its next value or, where values cannot be counted up, by typing.
+pub(in super::super) fn change_key(form: &LoaderForm) -> KeyCode {
+    let stepped = FIELDS.get(form.choice).is_some_and(|field| field.step.is_some());
+    if stepped { KeyCode::Right } else { KeyCode::Char('e') }
+}
+
 fn step(model: &mut Model, mut form: LoaderForm, field: &Field, by: isize) -> Vec<Effect> {
-    (field.step)(&mut form.options, &form.columns, by);
+    let Some(step) = field.step else { return keep(model, Dialog::Loader(form)) };
+    step(&mut form.options, &form.columns, by);
     look(model, form)
 }
 

@@ -7,14 +7,14 @@ use ratatui::widgets::Widget;
 
 use super::super::super::files::{FileEntry, FileKind};
 use super::super::super::model::{Browser, Model};
-use super::super::overlay::{popup, rows, typed};
+use super::super::overlay::{Choice, choices, popup, rows, typed};
 use super::{end_of, known, padded};
 use crate::track::printable;
 
 /// From this width on, what is known of a file stands beside the list.
 const BESIDE: u16 = 100;
 
-pub(super) fn draw(model: &Model, browser: &Browser, area: Rect, buffer: &mut Buffer) {
+pub(super) fn draw(model: &Model, browser: &Browser, area: Rect, buffer: &mut Buffer) -> Vec<Choice> {
     let folder = end_of(&printable(&browser.folder.display().to_string()), usize::from(area.width).saturating_sub(12));
     let title = if folder.is_empty() { "open".to_owned() } else { format!("open: {folder}") };
     let inside = popup(model, &title, (area.width, area.height), area, buffer);
@@ -28,34 +28,34 @@ pub(super) fn draw(model: &Model, browser: &Browser, area: Rect, buffer: &mut Bu
         let height = body.height * 3 / 5;
         (Rect { height, ..body }, Rect { y: body.y + height, height: body.height - height, ..body })
     };
-    entries(model, browser, list, buffer);
     preview(model, browser, pane, area.width >= BESIDE, buffer);
+    entries(model, browser, list, buffer)
 }
 
-fn entries(model: &Model, browser: &Browser, area: Rect, buffer: &mut Buffer) {
+fn entries(model: &Model, browser: &Browser, area: Rect, buffer: &mut Buffer) -> Vec<Choice> {
     let theme = &model.theme;
     let found = browser.narrowed();
     let mut lines = Vec::new();
     let (mut recent, mut choice_row) = (false, 0);
     for (i, entry) in found.iter().enumerate() {
         if entry.recent && !recent {
-            lines.push(Line::styled("recent", theme.dim));
+            lines.push((Line::styled("recent", theme.dim), None));
         } else if !entry.recent && recent {
-            lines.push(Line::styled("in this folder", theme.dim));
+            lines.push((Line::styled("in this folder", theme.dim), None));
         }
         recent = entry.recent;
         let chosen = i == browser.choice;
         if chosen {
             choice_row = lines.len();
         }
-        lines.push(line(model, entry, chosen, usize::from(area.width)));
+        lines.push((line(model, entry, chosen, usize::from(area.width)), Some(i)));
     }
     if found.is_empty() {
         let words = if browser.listing { "reading the folder …" } else { "nothing fits; Enter takes it as a path" };
-        lines.push(Line::styled(words, theme.dim));
+        lines.push((Line::styled(words, theme.dim), None));
     }
     let from = (choice_row + 1).saturating_sub(usize::from(area.height));
-    rows(model, lines, from, area, buffer);
+    choices(model, lines, from, area, buffer)
 }
 
 fn line(model: &Model, entry: &FileEntry, chosen: bool, width: usize) -> Line<'static> {

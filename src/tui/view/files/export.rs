@@ -5,14 +5,14 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use super::super::super::model::{ExportForm, Model};
-use super::super::overlay::{popup, rows, typed};
+use super::super::overlay::{Choice, choices, popup, typed};
 use super::{end_of, padded};
 use crate::track::printable;
 
 /// Width of the names of outputs.
 const NAMES: usize = 12;
 
-pub(super) fn draw(model: &Model, form: &ExportForm, area: Rect, buffer: &mut Buffer) {
+pub(super) fn draw(model: &Model, form: &ExportForm, area: Rect, buffer: &mut Buffer) -> Vec<Choice> {
     let theme = &model.theme;
     let height = u16::try_from(form.rows.len() + 6).unwrap_or(u16::MAX);
     let inside = popup(model, "write files", (76, height), area, buffer);
@@ -23,7 +23,7 @@ pub(super) fn draw(model: &Model, form: &ExportForm, area: Rect, buffer: &mut Bu
         let mark = if chosen { '>' } else { ' ' };
         let head = format!("{mark} [{}] {}", if row.on { 'x' } else { ' ' }, padded(row.kind.name(), NAMES));
         if let (true, Some(input)) = (chosen, &form.typing) {
-            lines.push(typed(model, &head, input));
+            lines.push((typed(model, &head, input), None));
             continue;
         }
         let there = if row.there { "  there already" } else { "" };
@@ -36,14 +36,15 @@ pub(super) fn draw(model: &Model, form: &ExportForm, area: Rect, buffer: &mut Bu
         } else {
             theme.text
         };
-        lines.push(Line::from(vec![
+        let line = Line::from(vec![
             Span::styled(head, style),
             Span::styled(path, if row.on { theme.text } else { theme.dim }),
             Span::styled(there, theme.warning),
-        ]));
+        ]);
+        lines.push((line, Some(i)));
     }
-    lines.push(Line::default());
-    lines.push(Line::styled(form.rows.get(form.choice).map_or("", |row| row.kind.help()), theme.dim));
-    lines.push(Line::styled("All that is chosen appears together, or nothing does.", theme.dim));
-    rows(model, lines, 0, inside, buffer);
+    let help = form.rows.get(form.choice).map_or("", |row| row.kind.help());
+    let below = ["", help, "All that is chosen appears together, or nothing does."];
+    lines.extend(below.map(|text| (Line::styled(text, theme.dim), None)));
+    choices(model, lines, 0, inside, buffer)
 }

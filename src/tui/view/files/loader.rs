@@ -8,7 +8,7 @@ use super::super::super::files::Seen;
 use super::super::super::model::{LoaderForm, Model};
 use super::super::super::update::FIELDS;
 use super::super::fit;
-use super::super::overlay::{popup, rows, typed};
+use super::super::overlay::{Choice, choices, popup, rows, typed};
 use super::{known, padded};
 use crate::track::printable;
 
@@ -19,11 +19,11 @@ const BELOW: u16 = 12;
 /// Width of a column of the first rows at most.
 const CELL: usize = 16;
 
-pub(super) fn draw(model: &Model, form: &LoaderForm, area: Rect, buffer: &mut Buffer) {
+pub(super) fn draw(model: &Model, form: &LoaderForm, area: Rect, buffer: &mut Buffer) -> Vec<Choice> {
     let title = format!("how to load {}", fit(&printable(&form.source.name()), 40));
     let inside = popup(model, &title, (area.width, area.height), area, buffer);
     let width = usize::from(inside.width);
-    let inside = fields(model, form, inside, buffer);
+    let (choices, inside) = fields(model, form, inside, buffer);
     let mut lines: Vec<Line<'static>> = Vec::new();
     let theme = &model.theme;
     let what = if form.again {
@@ -43,19 +43,20 @@ pub(super) fn draw(model: &Model, form: &LoaderForm, area: Rect, buffer: &mut Bu
         lines.extend(known(model, form.seen.as_ref(), width));
     }
     rows(model, lines, 0, inside, buffer);
+    choices
 }
 
-/// Draws the fields, as many of them as leave room for what they make of the record; gives that room. Where not all of
-/// them fit, they scroll with the one that is chosen.
-fn fields(model: &Model, form: &LoaderForm, inside: Rect, buffer: &mut Buffer) -> Rect {
+/// Draws the fields, as many of them as leave room for what they make of the record; gives them and that room. Where
+/// not all of them fit, they scroll with the one that is chosen.
+fn fields(model: &Model, form: &LoaderForm, inside: Rect, buffer: &mut Buffer) -> (Vec<Choice>, Rect) {
     let most = u16::try_from(FIELDS.len()).unwrap_or(u16::MAX);
     let height = inside.height.saturating_sub(BELOW).max(inside.height / 2).clamp(inside.height.min(1), most);
-    let lines = (0..FIELDS.len()).map(|at| field(model, form, at, usize::from(inside.width))).collect();
+    let lines = (0..FIELDS.len()).map(|at| (field(model, form, at, usize::from(inside.width)), Some(at))).collect();
     // The one after it, too, so that what lies below is seen to be there.
     let last = (form.choice + 2).min(FIELDS.len());
     let from = last.saturating_sub(usize::from(height)).min(form.choice);
-    rows(model, lines, from, Rect { height, ..inside }, buffer);
-    Rect { y: inside.y + height, height: inside.height - height, ..inside }
+    let choices = choices(model, lines, from, Rect { height, ..inside }, buffer);
+    (choices, Rect { y: inside.y + height, height: inside.height - height, ..inside })
 }
 
 fn field(model: &Model, form: &LoaderForm, at: usize, width: usize) -> Line<'static> {

@@ -11,8 +11,9 @@ pub struct Field {
     pub help: &'static str,
     /// What is told, as text; none when it is recognised.
     pub text: fn(&LoadOptions) -> Option<String>,
-    /// The next of its values (1), or the one before (-1); the columns of the record are known.
-    pub(super) step: fn(&mut LoadOptions, &[String], isize),
+    /// The next of its values (1), or the one before (-1), where they can be counted up; the columns of the record are
+    /// known.
+    pub(super) step: Option<fn(&mut LoadOptions, &[String], isize)>,
     /// Back to what is recognised.
     pub(super) clear: fn(&mut LoadOptions),
     /// Takes what was typed, where that makes sense.
@@ -33,7 +34,7 @@ pub static FIELDS: &[Field] = &[
         name: "time column",
         help: "a column, or the sample number",
         text: |o| o.time.clone().map(|t| if t == "sample" { "the sample number".into() } else { t }),
-        step: |o, columns, by| o.time = next(&named(columns, Some("sample")), o.time.clone(), by),
+        step: Some(|o, columns, by| o.time = next(&named(columns, Some("sample")), o.time.clone(), by)),
         clear: |o| o.time = None,
         take: Some(|o, text| o.time = told(text)),
     },
@@ -41,7 +42,7 @@ pub static FIELDS: &[Field] = &[
         name: "time unit",
         help: "of times that are numbers",
         text: |o| o.time_unit.and_then(Worded::word).map(str::to_owned),
-        step: |o, _, by| o.time_unit = stepped(o.time_unit, by),
+        step: Some(|o, _, by| o.time_unit = stepped(o.time_unit, by)),
         clear: |o| o.time_unit = None,
         take: None,
     },
@@ -49,10 +50,10 @@ pub static FIELDS: &[Field] = &[
         name: "channels",
         help: "columns of numbers, commas between them",
         text: |o| (!o.channels.is_empty()).then(|| o.channels.join(", ")),
-        step: |o, columns, by| {
+        step: Some(|o, columns, by| {
             let now = o.channels.first().cloned();
             o.channels = next(&named(columns, None), now, by).into_iter().collect();
-        },
+        }),
         clear: |o| o.channels.clear(),
         take: Some(|o, text| o.channels = list(text)),
     },
@@ -60,7 +61,7 @@ pub static FIELDS: &[Field] = &[
         name: "track column",
         help: "the id that tells several tracks in one table apart",
         text: |o| o.track.clone(),
-        step: |o, columns, by| o.track = next(&named(columns, None), o.track.clone(), by),
+        step: Some(|o, columns, by| o.track = next(&named(columns, None), o.track.clone(), by)),
         clear: |o| o.track = None,
         take: Some(|o, text| o.track = told(text)),
     },
@@ -68,7 +69,7 @@ pub static FIELDS: &[Field] = &[
         name: "truth column",
         help: "1 where a sample is really wild",
         text: |o| o.truth.clone(),
-        step: |o, columns, by| o.truth = next(&named(columns, None), o.truth.clone(), by),
+        step: Some(|o, columns, by| o.truth = next(&named(columns, None), o.truth.clone(), by)),
         clear: |o| o.truth = None,
         take: Some(|o, text| o.truth = told(text)),
     },
@@ -76,7 +77,7 @@ pub static FIELDS: &[Field] = &[
         name: "missing markers",
         help: "texts for \"no value\", besides empty, NaN, NA, null and -",
         text: |o| (!o.missing.is_empty()).then(|| o.missing.join(", ")),
-        step: |_, _, _| {},
+        step: None,
         clear: |o| o.missing.clear(),
         take: Some(|o, text| o.missing = list(text)),
     },
@@ -84,7 +85,7 @@ pub static FIELDS: &[Field] = &[
         name: "delimiter",
         help: "what stands between two cells",
         text: |o| o.delimiter.and_then(Worded::word).map(str::to_owned),
-        step: |o, _, by| o.delimiter = stepped(o.delimiter, by),
+        step: Some(|o, _, by| o.delimiter = stepped(o.delimiter, by)),
         clear: |o| o.delimiter = None,
         take: None,
     },
@@ -92,7 +93,7 @@ pub static FIELDS: &[Field] = &[
         name: "decimal comma",
         help: "1,5 is one and a half",
         text: |o| o.decimal_comma.map(yes),
-        step: |o, _, by| o.decimal_comma = next(&[true, false], o.decimal_comma, by),
+        step: Some(|o, _, by| o.decimal_comma = next(&[true, false], o.decimal_comma, by)),
         clear: |o| o.decimal_comma = None,
         take: None,
     },
@@ -100,7 +101,7 @@ pub static FIELDS: &[Field] = &[
         name: "header",
         help: "the first line names the columns",
         text: |o| o.header.map(yes),
-        step: |o, _, by| o.header = next(&[true, false], o.header, by),
+        step: Some(|o, _, by| o.header = next(&[true, false], o.header, by)),
         clear: |o| o.header = None,
         take: None,
     },
@@ -108,7 +109,7 @@ pub static FIELDS: &[Field] = &[
         name: "quotes",
         help: "cells may stand in quotes",
         text: |o| o.quotes.map(yes),
-        step: |o, _, by| o.quotes = next(&[true, false], o.quotes, by),
+        step: Some(|o, _, by| o.quotes = next(&[true, false], o.quotes, by)),
         clear: |o| o.quotes = None,
         take: None,
     },
@@ -116,7 +117,7 @@ pub static FIELDS: &[Field] = &[
         name: "order of dates",
         help: "what 1/2/2005 means",
         text: |o| o.day_first.map(|d| if d { "day first" } else { "month first" }.to_owned()),
-        step: |o, _, by| o.day_first = next(&[true, false], o.day_first, by),
+        step: Some(|o, _, by| o.day_first = next(&[true, false], o.day_first, by)),
         clear: |o| o.day_first = None,
         take: None,
     },
@@ -124,7 +125,7 @@ pub static FIELDS: &[Field] = &[
         name: "encoding",
         help: "how bytes are read as text",
         text: |o| o.encoding.and_then(Worded::word).map(str::to_owned),
-        step: |o, _, by| o.encoding = stepped(o.encoding, by),
+        step: Some(|o, _, by| o.encoding = stepped(o.encoding, by)),
         clear: |o| o.encoding = None,
         take: None,
     },
@@ -181,7 +182,7 @@ mod tests {
             let mut options = LoadOptions::default();
             match field.take {
                 Some(take) => take(&mut options, "x"),
-                None => (field.step)(&mut options, &columns, 1),
+                None => field.step.unwrap()(&mut options, &columns, 1),
             }
             assert!((field.text)(&options).is_some(), "{}", field.name);
             assert_ne!(options, LoadOptions::default(), "{}", field.name);
