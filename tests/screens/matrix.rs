@@ -62,6 +62,22 @@ fn picker() {
 }
 
 #[test]
+fn files() {
+    // The first line under the cursor has been looked into.
+    matrix("files", |bench| judged(bench).keys(":open Enter"));
+}
+
+#[test]
+fn loader() {
+    matrix("loader", |bench| judged(bench).keys(":loader Enter Down Down"));
+}
+
+#[test]
+fn export() {
+    matrix("export", |bench| judged(bench).keys(":export Enter Down Space"));
+}
+
+#[test]
 fn computing() {
     matrix("computing", |bench| {
         let mut bench = judged(bench);

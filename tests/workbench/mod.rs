@@ -12,6 +12,7 @@ use wildpoint::stop::Stop;
 use wildpoint::track::{LoadOptions, Source, load};
 use wildpoint::tui::advice::Advise;
 use wildpoint::tui::consensus::Poll;
+use wildpoint::tui::files::{FileEntry, FileKind, Listing, News, Task};
 use wildpoint::tui::message::{Effect, Message};
 use wildpoint::tui::model::Model;
 use wildpoint::tui::office::Judge;
@@ -108,7 +109,24 @@ impl Bench {
                 Effect::Poll(plan) => self.poll(plan),
                 Effect::Advise(plan) => self.advise(plan),
                 Effect::CancelPoll => {}
+                Effect::Files(task) => self.answer(task),
                 other => panic!("{other:?} is nothing for a still frame"),
+            }
+        }
+    }
+
+    /// News of files: a folder that is the same everywhere, what its files are, and nothing where outputs would go.
+    fn answer(&mut self, task: Task) {
+        let news = match task {
+            Task::List(folder) => News::Listed(Ok(Listing { folder, entries: entries(), file: None, note: None })),
+            Task::Look(glance) => News::Seen { result: glance.look(&Stop::never()), glance },
+            Task::Check(paths) => News::Checked(paths.into_iter().map(|path| (path, false)).collect()),
+            other => panic!("{other:?} is nothing for a still frame"),
+        };
+        for effect in update(&mut self.0, Message::Files(news)) {
+            match effect {
+                Effect::Files(task) => self.answer(task),
+                other => panic!("{other:?} follows on news of files"),
             }
         }
     }
@@ -124,6 +142,25 @@ impl Bench {
     pub fn frame(&self) -> String {
         text_of(&self.buffer())
     }
+}
+
+/// A recent session, a recent record, and a folder with one of each kind; one of them is there to be looked into.
+fn entries() -> Vec<FileEntry> {
+    let entry = |path: &str, kind: FileKind, size: u64, recent: bool| FileEntry {
+        path: PathBuf::from(path),
+        name: if recent { path } else { path.rsplit('/').next().unwrap() }.to_owned(),
+        kind,
+        size,
+        changed: "2026-03-04 11:49".into(),
+        recent,
+    };
+    vec![
+        entry("data/demo.csv", FileKind::File, 84_000, true),
+        entry("reviews/flight-12/second-pass.toml", FileKind::Session, 4_812, true),
+        entry("data/2026", FileKind::Folder, 0, false),
+        entry("data/demo.csv", FileKind::File, 84_000, false),
+        entry("data/radar_week_17.csv.gz", FileKind::File, 210_000_000, false),
+    ]
 }
 
 /// The frames at both sizes after some keys, each with the name of its size.
