@@ -204,3 +204,31 @@ fn every_key_after_g_that_decides_is_in_the_footer_at_80_columns() {
         assert!(footer.contains(words), "{words} is not in: {footer}");
     }
 }
+
+/// Half a number reads as another number: what the card has no room for, it leaves out whole.
+#[test]
+fn the_card_cuts_no_number() {
+    let numbers = |bench: &Bench| {
+        let (width, wide) = (usize::from(bench.0.size.0), bench.0.size.0 >= 110);
+        let (columns, rows) = if wide { (width - 38, 5) } else { (width, 2) };
+        let frame = bench.frame();
+        let card = frame.lines().skip_while(|line| !line.contains("5 flag ")).skip(1).take(rows);
+        let text = card.map(|line| line.chars().take(columns).collect::<String>() + " ").collect::<String>();
+        let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|word| !word.is_empty());
+        numbers.map(str::to_owned).collect::<Vec<_>>()
+    };
+    // With room, all of them are there in full.
+    let mut full = Bench::on("demo.csv", UNICODE_DARK).size((230, 60)).keys(":method Space hampel Enter");
+    let sizes = [(60, 16), (64, 24), (72, 24), (80, 24), (109, 24), (110, 30), (113, 30), (120, 40)];
+    let mut benches =
+        sizes.map(|size| Bench::on("demo.csv", UNICODE_DARK).size(size).keys(":method Space hampel Enter"));
+    for _ in 0..70 {
+        full = full.keys("n");
+        let known = numbers(&full);
+        benches = benches.map(|bench| bench.keys("n"));
+        for bench in &benches {
+            let cut = numbers(bench).into_iter().find(|number| !known.contains(number));
+            assert_eq!(cut, None, "{:?}\n{}\n{}", bench.0.size, bench.frame(), full.frame());
+        }
+    }
+}

@@ -37,10 +37,11 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         return;
     }
     let narrow = area.width < 100;
+    let width = usize::from(area.width);
     let mut lines = vec![
-        measured(model, &series, cursor, narrow),
-        judged(model, &series, cursor, mark.as_ref(), narrow),
-        neighbours(model, &series, cursor),
+        whole_pieces(measured(model, &series, cursor, narrow), width),
+        whole_pieces(judged(model, &series, cursor, mark.as_ref(), narrow), width),
+        neighbours(model, &series, cursor, width),
         remarks(model, &series, cursor, mark.as_ref()),
     ];
     // What all methods say goes before the neighbours.
@@ -52,6 +53,18 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
             line.render(Rect { y: body.y + i, height: 1, ..body }, buffer);
         }
     }
+}
+
+/// As many of the pieces as there is room for, each whole: half a number reads as another one.
+fn whole_pieces(pieces: Vec<Vec<Span<'static>>>, width: usize) -> Line<'static> {
+    let mut room = width;
+    let fits = |piece: &Vec<Span<'static>>| {
+        let wide = piece.iter().map(Span::width).sum::<usize>();
+        let fits = wide <= room;
+        room -= if fits { wide } else { room };
+        fits
+    };
+    Line::from(pieces.into_iter().take_while(fits).flatten().collect::<Vec<_>>())
 }
 
 /// Which flag of how many, and its state.
@@ -115,7 +128,7 @@ pub(super) fn state_word(state: FlagState) -> &'static str {
 }
 
 /// Row, time, raw value, expected value, tolerance, ratio.
-fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Line<'static> {
+fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Vec<Vec<Span<'static>>> {
     let theme = &model.theme;
     let full = model.track.time.full_label(series.t[i]);
     // On a narrow screen the date has to go, unless the record has several.
@@ -126,13 +139,12 @@ fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Line<
         (true, _) => full.trim_end_matches(" UTC").to_owned(),
         _ => full,
     };
-    let mut spans = vec![
-        Span::styled(format!(" #{} ", series.row(i) + 1), theme.title),
-        Span::styled(format!(" {time} "), theme.text),
+    let mut pieces = vec![
+        vec![Span::styled(format!(" #{} ", series.row(i) + 1), theme.title)],
+        vec![Span::styled(format!(" {time} "), theme.text)],
     ];
     let mut item = |name: &str, value: String| {
-        spans.push(Span::styled(format!("  {name} "), theme.dim));
-        spans.push(Span::styled(value, theme.text));
+        pieces.push(vec![Span::styled(format!("  {name} "), theme.dim), Span::styled(value, theme.text)]);
     };
     item("raw", short(series.y[i]));
     if let Some(drawn) = &model.state().drawn {
@@ -148,18 +160,19 @@ fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Line<
             item("ratio", ratio_text(ratio));
         }
     }
-    Line::from(spans)
+    pieces
 }
 
 /// What method and analyst say, and what will be written.
-fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>, narrow: bool) -> Line<'static> {
+fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>, narrow: bool) -> Vec<Vec<Span<'static>>> {
     let theme = &model.theme;
-    let Some(drawn) = &model.state().drawn else { return Line::default() };
+    let Some(drawn) = &model.state().drawn else { return Vec::new() };
     let judged = &drawn.outcome.detection.judged;
     let verdict = judged.verdict().get(i).copied().unwrap_or(Verdict::Missing);
     // In fewer words where they would run out of the panel: half a word looks like a whole one.
     let says = if narrow { ":" } else { " says" };
-    let mut text = format!("  {}{says} {}", drawn.outcome.detection.setup.method.about().id, verdict.word());
+    let method = format!("  {}{says} {}", drawn.outcome.detection.setup.method.about().id, verdict.word());
+    let mut said = vec![method];
     if let Some(d) = judged.directions().get(i) {
         let (forth, back) = if narrow { ("fwd", "bwd") } else { ("forward", "backward") };
         let both = [(forth, d.forward), (back, d.backward)];
@@ -169,19 +182,21 @@ fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>, nar
             both.iter().filter_map(|(name, d)| d.map(|d| format!("{name} {}", Direction::word(d)))).collect()
         };
         if !words.is_empty() {
-            text.push_str(if narrow { ", " } else { ": " });
-            text.push_str(&words.join(", "));
+            let words = words.join(", ");
+            said.push(if narrow { format!(", {words}") } else { format!(": {words}") });
         }
     }
     if let Some(run) = drawn.outcome.run(i) {
         match run.length {
-            1 => text.push_str("  isolated"),
-            n if narrow => text.push_str(&format!("  patch {}/{n}", i - run.start + 1)),
-            n => text.push_str(&format!("  {} of a patch of {n}", i - run.start + 1)),
+            1 => said.push("  isolated".into()),
+            n if narrow => said.push(format!("  patch {}/{n}", i - run.start + 1)),
+            n => said.push(format!("  {} of a patch of {n}", i - run.start + 1)),
         }
     }
     let outcome = written(drawn, series, i, mark, narrow);
-    Line::from(vec![Span::styled(format!(" → {outcome}"), theme.text), Span::styled(text, theme.dim)])
+    let outcome = vec![Span::styled(format!(" → {outcome}"), theme.text)];
+    let said = said.into_iter().map(|text| vec![Span::styled(text, theme.dim)]);
+    std::iter::once(outcome).chain(said).collect()
 }
 
 /// What the cleaned file will have.
@@ -189,19 +204,26 @@ fn written(drawn: &Drawn, series: &Series<'_>, i: usize, mark: Option<&Mark>, na
     let wild = mark.map_or(Verdict::Normal, Mark::effective) == Verdict::Outlier;
     match drawn.outcome.fix(i) {
         Some(fix) if wild && fix.is_finite() => format!("repaired to {}", short(fix)),
-        Some(_) if wild && narrow => "removed, cell empty".into(),
+        Some(_) if wild && narrow => "removed, empty".into(),
         Some(_) if wild => "removed, the cell stays empty".into(),
         _ if wild => "…".into(),
         _ => format!("kept as {}", short(series.y[i])),
     }
 }
 
-/// The values around.
-fn neighbours(model: &Model, series: &Series<'_>, i: usize) -> Line<'static> {
+/// The values around, as many on each side as there is room for.
+fn neighbours(model: &Model, series: &Series<'_>, i: usize, width: usize) -> Line<'static> {
+    let all = (0..=3).rev().map(|reach| around(model, series, i, reach));
+    all.into_iter().find(|line| line.width() <= width).unwrap_or_default()
+}
+
+/// So many values on each side.
+fn around(model: &Model, series: &Series<'_>, i: usize, reach: usize) -> Line<'static> {
     let theme = &model.theme;
     let mut spans = vec![Span::styled(" neighbours", theme.dim)];
-    for k in i.saturating_sub(3)..(i + 4).min(series.len()) {
-        if k > 0 && k > i.saturating_sub(3) && series.lost_before(k) > 0 {
+    let first = i.saturating_sub(reach);
+    for k in first..(i + reach + 1).min(series.len()) {
+        if k > first && series.lost_before(k) > 0 {
             spans.push(Span::styled(format!("  ({} lost)", series.lost_before(k)), theme.dim));
         }
         let value = short(series.y[k]);
