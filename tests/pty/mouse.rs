@@ -57,6 +57,21 @@ fn a_click_in_the_queue_goes_to_the_flag_and_a_second_zooms_to_it() {
 }
 
 #[test]
+fn a_double_click_in_a_list_takes_what_was_under_it() {
+    let (_folder, mut terminal) = workbench(COMPACT);
+    terminal.keys("m");
+    terminal.wait_for("type to filter");
+    let row = terminal.look(|screen| {
+        let rows: Vec<String> = screen.rows(0, 80).collect();
+        rows.iter().position(|line| line.contains(" hampel ")).unwrap() + 1
+    });
+    // Both clicks come at once, as a hand makes them; the list may move under the first.
+    terminal.keys(&format!("\x1b[<0;20;{row}M\x1b[<0;20;{row}m").repeat(2));
+    terminal.wait_for("hampel: Hampel identifier");
+    terminal.settle();
+}
+
+#[test]
 fn half_a_report_presses_no_key() {
     let (_folder, mut terminal) = workbench(COMPACT);
     terminal.keys("z");
