@@ -48,6 +48,7 @@ pub use cells::Cells;
 pub use checks::RowChecks;
 pub use inert::inert;
 pub use load::{load, load_while};
+pub(crate) use names::is_id;
 pub(crate) use number::{Cell, Reading};
 pub use number::{number_text, without_signed_zero};
 pub use options::LoadOptions;

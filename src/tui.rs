@@ -37,6 +37,7 @@ pub mod config;
 pub mod consensus;
 pub mod files;
 mod find;
+mod first;
 mod fuzzy;
 mod hit;
 pub mod input;
@@ -93,11 +94,12 @@ impl Opening {
     /// The model to start with.
     #[must_use]
     pub fn model(self, look: Look) -> Model {
-        let mut notes = self.track.notes.clone();
+        let mut notes = first::notes(&self.track);
         notes.extend(self.notes);
+        let first = first::plan(&self.session);
         let mut model = Model::new(Arc::new(self.track), self.session, self.file, look.theme, look.glyphs);
         model.channels.iter_mut().zip(&self.own).for_each(|(channel, own)| channel.touched = *own);
-        model.shown = self.own.iter().position(|own| *own).unwrap_or(0);
+        model.shown = self.own.iter().position(|own| *own).unwrap_or(first);
         if !notes.is_empty() {
             model.say(Tone::Warning, notes.join(" · "));
         }

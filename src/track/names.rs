@@ -106,6 +106,24 @@ pub(crate) fn words(name: &str) -> Vec<&str> {
     words
 }
 
+/// Words in the names of columns that tell tracks apart.
+const IDS: [&str; 17] = [
+    "id", "flight", "station", "svid", "sv", "prn", "sat", "beacon", "bird", "callsign", "icao24", "series", "sensor",
+    "target", "track", "object", "channel",
+];
+
+/// True for a word that tells tracks apart.
+pub(crate) fn is_id_word(word: &str) -> bool {
+    IDS.iter().any(|id| word.eq_ignore_ascii_case(id))
+}
+
+/// True for a name that says "id" and nothing else: `flight_id`, `SVID`, `sensor no`, but not `target_range_m`.
+pub(crate) fn is_id(name: &str) -> bool {
+    let counts = |word: &str| ["no", "nr", "number"].iter().any(|n| word.eq_ignore_ascii_case(n));
+    let words = words(name);
+    words.iter().any(|word| is_id_word(word)) && words.iter().all(|word| is_id_word(word) || counts(word))
+}
+
 /// How much a name says "time": 4 certainly, 0 not at all.
 pub(crate) fn time_rank(name: &str) -> u8 {
     let words: Vec<String> = words(name).iter().map(|w| w.to_lowercase()).collect();

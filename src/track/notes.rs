@@ -6,12 +6,6 @@ use super::head::Head;
 use super::{ColumnKind, Fault, TimeFormat, Track, names, printable, rows, timing};
 use crate::error::Result;
 
-/// Words in the names of columns that tell tracks apart.
-const IDS: [&str; 17] = [
-    "id", "flight", "station", "svid", "sv", "prn", "sat", "beacon", "bird", "callsign", "icao24", "series", "sensor",
-    "target", "track", "object", "channel",
-];
-
 /// The note for a record in which more than a tenth of the rows lie before an earlier one, from `row` on.
 ///
 /// # Errors
@@ -35,7 +29,7 @@ pub(crate) fn about_backward_times(track: &Track, text: &mut Feed<'_>, row: usiz
     })?;
     let time = track.time.column.and_then(|c| before.get(c)).map(|t| printable(t)).unwrap_or_default();
     let id = track.columns.iter().enumerate().find(|(c, column)| {
-        let named = names::words(&column.name).iter().any(|w| IDS.iter().any(|id| w.eq_ignore_ascii_case(id)));
+        let named = names::words(&column.name).into_iter().any(names::is_id_word);
         let differs = before.get(*c) != here.get(*c);
         named || (column.kind == ColumnKind::Text && differs)
     });

@@ -22,6 +22,7 @@ mod open;
 mod recent;
 
 pub use listing::{FileEntry, FileKind, Listing};
+pub(super) use look::faults;
 pub use look::{Glance, Seen};
 
 /// A record or a session to open.

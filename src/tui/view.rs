@@ -125,7 +125,7 @@ fn toast(model: &Model, area: Rect, buffer: &mut Buffer) {
         said(error, theme.error)
     } else if let Some(range) = model.selection() {
         said(&range_words(model, &range), theme.focus)
-    } else if let Some(warning) = no_flags(model) {
+    } else if let Some(warning) = unchecked(model).or_else(|| no_flags(model)) {
         said(&warning, theme.warning)
     } else {
         Line::default()
@@ -153,6 +153,21 @@ fn range_words(model: &Model, range: &std::ops::Range<usize>) -> String {
     let counts = format!("{}, {}", count(range.len(), "sample"), count(flags, "flag"));
     let (keys, back) = (words::of_range(&model.keys), words::key(&model.keys, Action::Back));
     format!("rows {first} to {last}: {counts} · {keys}, {back} leaves")
+}
+
+/// That most samples could not be judged: few flags, or none, would read as a good record.
+fn unchecked(model: &Model) -> Option<String> {
+    let drawn = model.state().drawn.as_ref()?;
+    let (unchecked, all) = (drawn.outcome.counts.unchecked, model.series().len());
+    let method = drawn.outcome.detection.setup.method.about().id;
+    (unchecked * 2 > all).then(|| {
+        format!(
+            "{} of {} samples are unchecked: {method} cannot judge them here · {} another method",
+            thousands(unchecked),
+            thousands(all),
+            model.key(Action::Methods)
+        )
+    })
 }
 
 /// Why nothing is flagged, where the settings do not allow it. (Where there is a panel for the settings, it says so

@@ -124,7 +124,7 @@ fn steps(track: &Track, channel: &crate::track::Channel) -> String {
     format!("{interval}, {} of {} samples there, {lost} lost between", series.len(), track.rows)
 }
 
-fn faults(track: &Track) -> Vec<String> {
+pub(in crate::tui) fn faults(track: &Track) -> Vec<String> {
     let f = &track.faults;
     let kinds: [(&str, &Fault); 6] = [
         ("repeated times", &f.repeated_times),

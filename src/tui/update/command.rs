@@ -45,7 +45,9 @@ pub static COMMANDS: &[Command] = &[
             None => act(m, Action::Open),
         })
     }),
-    command("loader", "", "correct how the record is loaded", |m, _| Ok(dialog::correct(m))),
+    command("loader", "", "correct how the record is loaded: columns, units, track ids, delimiter", |m, _| {
+        Ok(dialog::correct(m))
+    }),
     command("export", "[NAME]", "write the cleaned file; without a name, choose what is written", |m, a| {
         Ok(export(m, a, OutputKind::Cleaned, false))
     }),

@@ -1,0 +1,65 @@
+//! What of a record is shown first, and what is said of it then.
+
+use super::files;
+use crate::session::Session;
+use crate::track::{Track, is_id, printable};
+
+/// The plan that is shown first: of the first channel that is not, by its name, an id.
+pub(super) fn plan(session: &Session) -> usize {
+    session.plans.iter().position(|plan| !is_id(&plan.channel)).unwrap_or(0)
+}
+
+/// What a user should know before trusting the record: the loader's notes or, without any, what it could not use.
+/// Samples that are left out change results as much as samples that are flagged.
+pub(super) fn notes(track: &Track) -> Vec<String> {
+    if !track.notes.is_empty() {
+        return track.notes.clone();
+    }
+    let mut notes = files::faults(track);
+    let out_of_order = track.faults.repeated_times.count + track.faults.backward_times.count > 0;
+    let id = track.channels.iter().find(|channel| is_id(&channel.name));
+    match id.filter(|_| out_of_order && track.track_column().is_none()) {
+        Some(id) => {
+            notes.push(format!("`{}` may tell several tracks apart: :loader, track column", printable(&id.name)));
+        }
+        None if !notes.is_empty() => notes.push(":loader shows and corrects how the record is read".into()),
+        None => {}
+    }
+    notes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::Setup;
+    use crate::track::{LoadOptions, Source, load};
+
+    fn loaded(text: &'static str, options: &LoadOptions) -> (Track, Session) {
+        let track = load(&Source::BuiltIn { name: "test", bytes: text.as_bytes().into() }, options).unwrap();
+        let session = Session::new(&track, options.clone(), &Setup::standard());
+        (track, session)
+    }
+
+    #[test]
+    fn an_id_is_not_what_one_looks_at_and_is_named_where_times_are_out_of_order() {
+        // Two beacons answer in turn, and one of them late.
+        let text = "t_s,beacon,range_m\n0,1,5.0\n1,2,7.0\n2,1,5.1\n1.5,2,7.1\n4,1,5.2\n5,2,7.2\n6,1,5.3\n7,2,7.3\n8,1,5\n9,2,7\n10,1,5\n";
+        let (track, session) = loaded(text, &LoadOptions::default());
+        assert_eq!(session.plans[plan(&session)].channel, "range_m");
+        assert_eq!(
+            notes(&track),
+            ["1 backward times (line 5: 1.5)", "`beacon` may tell several tracks apart: :loader, track column",]
+        );
+        let told = LoadOptions { track: Some("beacon".into()), ..LoadOptions::default() };
+        assert_eq!(notes(&loaded(text, &told).0).last().map(String::as_str), None, "each is in order by itself");
+    }
+
+    #[test]
+    fn what_could_not_be_read_is_said_and_a_record_without_faults_is_met_in_silence() {
+        let (track, session) = loaded("t_s,id\n0,1\n1,2\n2,x\n3,4\n", &LoadOptions::default());
+        assert_eq!(plan(&session), 0, "there is nothing else");
+        let said = notes(&track);
+        assert!(said[0].starts_with("1 unreadable cells") && said[1].contains(":loader"), "{said:?}");
+        assert!(notes(&loaded("t_s,x\n0,1\n1,2\n2,3\n", &LoadOptions::default()).0).is_empty());
+    }
+}
