@@ -8,7 +8,7 @@ use clap::CommandFactory;
 use crate::cli::{Cli, Command, Load, OutputArgs};
 use crate::error::{Error, Result};
 use crate::report::Inspection;
-use crate::track::{Channel, Source, Track, load};
+use crate::track::{Channel, Source, Track, load, printable_json, printable_lines};
 
 mod clean;
 mod compare;
@@ -92,15 +92,17 @@ pub fn set_threads(threads: Option<usize>) -> Result<()> {
     Ok(())
 }
 
+/// Words for people. Names and cells in them come from files, and are made harmless here once more.
 fn print(out: &mut dyn Write, text: &str) -> Result<Ending> {
-    out.write_all(text.as_bytes()).map_err(Error::io("write", "standard output"))?;
-    Ok(Ending::Done)
+    let text = printable_lines(text);
+    out.write_all(text.as_bytes()).map(|()| Ending::Done).map_err(Error::io("write", "standard output"))
 }
 
 fn print_json(out: &mut dyn Write, value: &impl serde::Serialize) -> Result<Ending> {
     let text = serde_json::to_string_pretty(value)
         .map_err(|e| Error::io("write", "standard output")(std::io::Error::other(e)))?;
-    print(out, &(text + "\n"))
+    let text = printable_json(&text) + "\n";
+    out.write_all(text.as_bytes()).map(|()| Ending::Done).map_err(Error::io("write", "standard output"))
 }
 
 fn inspect(file: &Path, options: &Load, json: bool, out: &mut dyn Write) -> Result<Ending> {

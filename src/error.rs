@@ -9,7 +9,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A file or folder could not be read or written.
-    #[error("{}: cannot {action}: {source}\n  {}", path.display(), way_out(action, source.kind()))]
+    #[error("{}: cannot {action}: {source}\n  {}", shown(path), way_out(action, source.kind()))]
     Io {
         /// What was being done: `read`, `write`, …
         action: &'static str,
@@ -19,7 +19,7 @@ pub enum Error {
         source: std::io::Error,
     },
     /// An input file is not what the loader can use.
-    #[error("{}{}: {what}\n  {help}", path.display(), line.map(|l| format!(":{l}")).unwrap_or_default())]
+    #[error("{}{}: {what}\n  {help}", shown(path), line.map(|l| format!(":{l}")).unwrap_or_default())]
     Input {
         /// The input file.
         path: PathBuf,
@@ -31,7 +31,7 @@ pub enum Error {
         help: String,
     },
     /// A session file cannot be used.
-    #[error("{}{}: {what}\n  {help}", path.display(), line.map(|l| format!(":{l}")).unwrap_or_default())]
+    #[error("{}{}: {what}\n  {help}", shown(path), line.map(|l| format!(":{l}")).unwrap_or_default())]
     Session {
         /// The session file.
         path: PathBuf,
@@ -51,13 +51,16 @@ pub enum Error {
         help: String,
     },
     /// An output would overwrite a file.
-    #[error("{}: already exists, nothing was written\n  give another name, or --force to overwrite it", .0.display())]
+    #[error("{}: already exists, nothing was written\n  give another name, or --force to overwrite it", shown(.0))]
     Exists(PathBuf),
     /// An output would overwrite the input.
-    #[error("{}: this is the input, which is never overwritten\n  give the output another name", .0.display())]
+    #[error("{}: this is the input, which is never overwritten\n  give the output another name", shown(.0))]
     IsInput(PathBuf),
     /// The input is not the one the session was made with.
-    #[error("{}: the data are not those of the session: {what}\n  restore the file, or go on with --accept-changed-data", path.display())]
+    #[error(
+        "{}: the data are not those of the session: {what}\n  restore the file, or go on with --accept-changed-data",
+        shown(path)
+    )]
     Changed {
         /// The input file.
         path: PathBuf,
@@ -87,6 +90,11 @@ impl Error {
     }
 }
 
+/// A path on one line: a line end in a name would pass for the end of what we say.
+fn shown(path: &Path) -> String {
+    path.display().to_string().replace('\n', "\\n")
+}
+
 /// What helps against a refusal of the operating system.
 fn way_out(action: &str, kind: std::io::ErrorKind) -> &'static str {
     use std::io::ErrorKind as Kind;
@@ -95,6 +103,9 @@ fn way_out(action: &str, kind: std::io::ErrorKind) -> &'static str {
         Kind::NotFound => "make the folder first, or name one that is there",
         Kind::PermissionDenied => "change its permissions, or name another place",
         Kind::StorageFull | Kind::QuotaExceeded => "make room, or name a place on another disk",
+        Kind::FileTooLarge => {
+            "raise the limit on the size of a file (ulimit -f), or name a place that takes larger ones"
+        }
         Kind::ReadOnlyFilesystem => "name a place that can be written to",
         _ => "see to what the system says, then try again",
     }

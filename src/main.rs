@@ -10,7 +10,7 @@ use wildpoint::error::{Error, Result};
 use wildpoint::report::Summary;
 use wildpoint::session::{Analysed, Session, open_all};
 use wildpoint::stop::Stop;
-use wildpoint::track::{Source, Wanted, load};
+use wildpoint::track::{Source, Wanted, load, printable_lines};
 use wildpoint::tui::config::{self, Config};
 use wildpoint::tui::files::is_session;
 use wildpoint::tui::journal::folder;
@@ -19,7 +19,16 @@ use wildpoint::tui::theme::{ColorDepth, Theme};
 use wildpoint::tui::{Ended, Look, Opening, run, still};
 
 fn main() -> ExitCode {
-    let mut cli = Cli::parse();
+    bear_the_limit_of_files();
+    let mut cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(help) if !help.use_stderr() => help.exit(),
+        // Without its colours, since an argument (a file's name, say) stands in it.
+        Err(wrong) => {
+            let _ = write!(std::io::stderr(), "{}", printable_lines(&wrong.to_string()));
+            return ExitCode::from(2);
+        }
+    };
     let stdout = std::io::stdout();
     let ended = match cli.command.take() {
         Some(Task::Keys(args)) => configured(&args).and_then(|config| {
@@ -35,7 +44,7 @@ fn main() -> ExitCode {
         }
         None => match workbench(&cli) {
             Ok(Ended { signal: Some(signal), words }) => {
-                let _ = writeln!(std::io::stderr(), "wildpoint: {words}");
+                let _ = writeln!(std::io::stderr(), "wildpoint: {}", printable_lines(&words));
                 // As shells have it for programs that a signal ended.
                 return ExitCode::from(128 | u8::try_from(signal).unwrap_or(0));
             }
@@ -49,10 +58,18 @@ fn main() -> ExitCode {
         // A reader that has seen enough (`| head`) is no failure.
         Err(Error::Io { source, .. }) if source.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(e) => {
-            let _ = writeln!(std::io::stderr(), "wildpoint: {e}");
+            let _ = writeln!(std::io::stderr(), "wildpoint: {}", printable_lines(&e.to_string()));
             ExitCode::from(2)
         }
     }
+}
+
+/// A file that may grow no further (`ulimit -f`) is an error of the write that is told, not an end without a word that
+/// leaves files behind: the signal is caught, and nobody looks whether it came.
+fn bear_the_limit_of_files() {
+    #[cfg(unix)]
+    // Where it cannot be caught, the program ends as any other.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
 }
 
 /// Opens the workbench, or prints one frame of it where there is no terminal.
@@ -78,7 +95,7 @@ fn workbench(cli: &Cli) -> Result<Ended> {
     };
     let frame = still(opening, Look { theme: Theme::mono(), glyphs: glyphs(cli, &config) }, cli.size)?;
     let mut out = stdout.lock();
-    writeln!(out, "{frame}\n{analysed}").map_err(Error::io("write", "standard output"))?;
+    writeln!(out, "{frame}\n{}", printable_lines(&analysed)).map_err(Error::io("write", "standard output"))?;
     Ok(Ended::default())
 }
 

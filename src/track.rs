@@ -56,7 +56,8 @@ pub use outputs::Outputs;
 #[cfg(test)]
 pub(crate) use outputs::faults;
 pub use preview::Preview;
-pub use printable::printable;
+pub(crate) use printable::is_hidden;
+pub use printable::{printable, printable_json, printable_lines};
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use series::{Samples, Series, lost_samples};

@@ -9,7 +9,9 @@ use super::{Ending, print, print_json};
 use crate::cli::InjectArgs;
 use crate::error::{Error, Result};
 use crate::experiment::{Injection, inject};
-use crate::track::{CellChange, Cells, Channel, NewColumn, Outputs, Series, Source, Track, for_each_row, load, widen};
+use crate::track::{
+    CellChange, Cells, Channel, NewColumn, Outputs, Series, Source, Track, for_each_row, load, printable, widen,
+};
 
 /// What was done, for programs.
 #[derive(Serialize)]
@@ -68,14 +70,14 @@ impl Injected<'_> {
         let mut text = format!(
             "{}: {} wild samples put in ({} isolated, {} patches) and {} steps; noise scale {}\n  raw values in `{}`, \
              truth in `{}`\n",
-            self.channel,
+            printable(self.channel),
             self.wild,
             self.isolated,
             self.patches,
             self.steps,
             self.sigma,
-            self.raw_column,
-            self.truth_column
+            printable(self.raw_column),
+            printable(self.truth_column)
         );
         if two_truths {
             text.push_str("  the record had a truth column already: name the new one with --truth\n");

@@ -53,7 +53,9 @@ fn cleaned_name(session: &Path) -> String {
 }
 
 fn tell_notes(session: &Path, notes: &[String], out: &mut dyn Write) -> Result<()> {
-    notes.iter().try_for_each(|note| print(out, &format!("{}: {}\n", session.display(), printable(note))).map(|_| ()))
+    notes.iter().try_for_each(|note| {
+        print(out, &format!("{}: {}\n", printable(&session.display().to_string()), printable(note))).map(|_| ())
+    })
 }
 
 fn run(path: &Path, accept_changed: bool, target: &Target) -> Result<(Summary, Vec<String>)> {
@@ -126,7 +128,7 @@ pub(super) fn check_all(
             None if checked.matches => "same result".to_owned(),
             None => checked.differences.join("; "),
         };
-        print(out, &format!("{}: {}\n", checked.session, printable(&verdict)))?;
+        print(out, &format!("{}: {}\n", printable(&checked.session), printable(&verdict)))?;
     }
     Ok(ending)
 }

@@ -11,7 +11,7 @@ use super::{Ending, print, print_json};
 use crate::cli::OutputArgs;
 use crate::error::Result;
 use crate::report::Summary;
-use crate::track::printable;
+use crate::track::{printable, printable_lines};
 
 /// Does `work` for each of `items`, as many at a time as there are threads; results in the order of the items. Where
 /// standard error is a terminal it shows how far it is, unless `quiet`.
@@ -108,7 +108,7 @@ pub(super) fn tell_errors<T>(inputs: &[PathBuf], results: &[Result<T>]) {
         let (input, error) = (input.display().to_string(), error.to_string());
         // Most errors name the file themselves.
         let whose = if error.contains(&input) { String::new() } else { format!("{input}: ") };
-        let _ = writeln!(stderr, "wildpoint: {whose}{error}");
+        let _ = writeln!(stderr, "{}", printable_lines(&format!("wildpoint: {whose}{error}")));
     }
 }
 
@@ -137,9 +137,10 @@ fn text(inputs: &[PathBuf], results: &[Result<Summary>]) -> String {
             of(|n| n.unchecked),
         ];
         all.iter_mut().zip(numbers).for_each(|(sum, n)| *sum += n);
+        notes.extend(summary.notes.iter().map(|note| format!("note: {name}: {}\n", printable(note))));
         for channel in &summary.channels {
             for warning in &channel.warnings {
-                notes += &format!("note: {name}, {}: {warning}\n", channel.channel);
+                notes += &format!("note: {name}, {}: {}\n", printable(&channel.channel), printable(warning));
             }
         }
         rows.push(std::iter::once(name).chain(numbers.map(|n| n.to_string())).collect());

@@ -90,6 +90,21 @@ pub struct FaultFacts {
     pub first: Vec<(u64, String)>,
 }
 
+impl FaultFacts {
+    /// What it is and where: `repeated times (line 3: 0.5, …)`.
+    fn places(&self) -> String {
+        let first: Vec<String> =
+            self.first.iter().map(|(line, text)| format!("line {line}: {}", printable(text))).collect();
+        let more = if self.count > self.first.len() { ", …" } else { "" };
+        format!("{} ({}{more})", self.what, first.join(", "))
+    }
+
+    /// How many of what, and where.
+    pub(super) fn text(&self) -> String {
+        format!("{} {}", self.count, self.places())
+    }
+}
+
 impl Inspection {
     /// The facts of `track`.
     #[must_use]
@@ -142,10 +157,7 @@ impl Inspection {
             let _ = writeln!(out, "\nbad rows");
         }
         for fault in &self.faults {
-            let first: Vec<String> =
-                fault.first.iter().map(|(line, text)| format!("line {line}: {}", printable(text))).collect();
-            let more = if fault.count > fault.first.len() { ", …" } else { "" };
-            let _ = writeln!(out, "  {:>8} {} ({}{more})", fault.count, fault.what, first.join(", "));
+            let _ = writeln!(out, "  {:>8} {}", fault.count, fault.places());
         }
         self.notes.iter().for_each(|note| {
             let _ = writeln!(out, "  note: {}", printable(note));
@@ -229,6 +241,11 @@ fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts
         noise_difference: of_longest(noise::by_difference(&series, &segments, &stop)),
         noise_spline: of_longest(noise::by_spline(&series, &segments, &stop)),
     }
+}
+
+/// What of a record could not be used, with the first lines, and what the loader remarked.
+pub(super) fn remarks(track: &Track) -> Vec<String> {
+    fault_facts(&track.faults).iter().map(FaultFacts::text).chain(track.notes.iter().cloned()).collect()
 }
 
 fn fault_facts(faults: &Faults) -> Vec<FaultFacts> {

@@ -4,12 +4,13 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::inspection::remarks;
 use crate::error::{Error, Result};
 use crate::method::Way;
 use crate::param::{Settings, Value};
 use crate::score::{FinalError, Scores, final_error};
 use crate::session::{Analysed, Counts, Session};
-use crate::track::Track;
+use crate::track::{Track, printable};
 
 /// A result in a nutshell.
 #[derive(Debug, Clone, Serialize)]
@@ -31,6 +32,9 @@ pub struct Summary {
     /// when there is nothing to compare with.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub differs: Option<Vec<String>>,
+    /// What of the record could not be used, and what the loader remarked.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// One entry per channel.
     pub channels: Vec<ChannelSummary>,
 }
@@ -108,6 +112,7 @@ impl Summary {
             flagged: analysed.flagged(),
             clean_sha256: None,
             differs: None,
+            notes: remarks(track),
             channels: channels.collect(),
         }
     }
@@ -138,9 +143,12 @@ impl Summary {
     #[must_use]
     pub fn text(&self) -> String {
         let mut out = String::new();
+        for note in &self.notes {
+            let _ = writeln!(out, "note: {}", printable(note));
+        }
         for c in &self.channels {
             let n = c.counts;
-            let _ = write!(out, "{}: {} flagged by {}", c.channel, n.flagged, c.method);
+            let _ = write!(out, "{}: {} flagged by {}", printable(&c.channel), n.flagged, c.method);
             let _ = write!(out, " ({} isolated, {} patches)", n.isolated, n.patches);
             let _ = write!(out, ", {} repaired, {} removed", n.repaired, n.removed);
             for (count, what) in [
@@ -165,11 +173,11 @@ impl Summary {
                 let _ = writeln!(out, " ({removed} outliers removed)");
             }
             c.warnings.iter().for_each(|w| {
-                let _ = writeln!(out, "  note: {w}");
+                let _ = writeln!(out, "  note: {}", printable(w));
             });
         }
         for difference in self.differs.iter().flatten() {
-            let _ = writeln!(out, "note: not the result that the session recorded: {difference}");
+            let _ = writeln!(out, "note: not the result that the session recorded: {}", printable(difference));
         }
         out
     }

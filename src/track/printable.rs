@@ -13,10 +13,20 @@ const LONGEST: usize = 4096;
 /// bytes of the file.
 #[must_use]
 pub fn printable(text: &str) -> String {
+    visible(text, LONGEST)
+}
+
+/// As [`printable`], for a text of our own in which texts of files stand: its line ends stay, and nothing is cut.
+#[must_use]
+pub fn printable_lines(text: &str) -> String {
+    text.split('\n').map(|line| visible(line, usize::MAX)).collect::<Vec<_>>().join("\n")
+}
+
+fn visible(text: &str, longest: usize) -> String {
     let mut safe = String::with_capacity(text.len());
     let mut marks = 0;
     for (count, c) in text.chars().enumerate() {
-        if count == LONGEST {
+        if count == longest {
             safe.push('…');
             break;
         }
@@ -28,24 +38,46 @@ pub fn printable(text: &str) -> String {
             continue;
         }
         marks = 0;
-        match c {
-            '\t' => safe.push_str("\\t"),
-            '\n' => safe.push_str("\\n"),
-            '\r' => safe.push_str("\\r"),
-            c if c.is_ascii_control() => {
-                let _ = write!(safe, "\\x{:02x}", u32::from(c));
-            }
-            c if is_hidden(c) => {
-                let _ = write!(safe, "\\u{{{:x}}}", u32::from(c));
-            }
-            c => safe.push(c),
+        push_visible(&mut safe, c);
+    }
+    safe
+}
+
+/// JSON, which says of itself what it holds, with the characters that a terminal would obey, hide or reorder written as
+/// `\u202e`. They can only stand inside its strings, where that means the same.
+#[must_use]
+pub fn printable_json(json: &str) -> String {
+    let mut safe = String::with_capacity(json.len());
+    for c in json.chars() {
+        if c == '\x7f' || is_hidden(c) {
+            c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| {
+                let _ = write!(safe, "\\u{unit:04x}");
+            });
+        } else {
+            safe.push(c);
         }
     }
     safe
 }
 
+/// A character as it is, or an escape where a terminal would obey, hide or reorder.
+fn push_visible(safe: &mut String, c: char) {
+    match c {
+        '\t' => safe.push_str("\\t"),
+        '\n' => safe.push_str("\\n"),
+        '\r' => safe.push_str("\\r"),
+        c if c.is_ascii_control() => {
+            let _ = write!(safe, "\\x{:02x}", u32::from(c));
+        }
+        c if is_hidden(c) => {
+            let _ = write!(safe, "\\u{{{:x}}}", u32::from(c));
+        }
+        c => safe.push(c),
+    }
+}
+
 /// Characters that draw nothing or change how others are drawn.
-fn is_hidden(c: char) -> bool {
+pub(crate) fn is_hidden(c: char) -> bool {
     matches!(c,
         '\u{80}'..='\u{9f}' // C1 controls
         | '\u{ad}' // soft hyphen
@@ -81,6 +113,16 @@ mod tests {
     #[test]
     fn at_most_two_marks_stay_on_a_character() {
         assert_eq!(printable("e\u{301}\u{302}\u{303}\u{304}x\u{301}"), "e\u{301}\u{302}x\u{301}");
+    }
+
+    #[test]
+    fn lines_stay_lines_and_json_stays_json() {
+        assert_eq!(printable_lines("a: \x1b[31m\n  note: \u{202e}\r\n"), "a: \\x1b[31m\n  note: \\u{202e}\\r\n");
+        let name = "x\x1b[31m\u{202e}\u{9b}\x7f\u{e0041}\"ö";
+        let json = serde_json::to_string_pretty(&[name]).unwrap();
+        let safe = printable_json(&json);
+        assert_eq!(safe, "[\n  \"x\\u001b[31m\\u202e\\u009b\\u007f\\udb40\\udc41\\\"ö\"\n]");
+        assert_eq!(serde_json::from_str::<Vec<String>>(&safe).unwrap(), [name]);
     }
 
     #[test]

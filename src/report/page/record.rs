@@ -81,11 +81,7 @@ pub(super) fn columns(inspection: &Inspection) -> Table {
 
 /// What could not be used, and what the loader remarked.
 pub(super) fn notes(inspection: &Inspection) -> Vec<String> {
-    let fault = |f: &super::super::inspection::FaultFacts| {
-        let first: Vec<String> = f.first.iter().map(|(line, text)| format!("line {line}: {text}")).collect();
-        let more = if f.count > f.first.len() { ", …" } else { "" };
-        format!("{} {} ({}{more})", f.count, f.what, first.join(", "))
-    };
+    let fault = super::super::inspection::FaultFacts::text;
     inspection.faults.iter().map(fault).chain(inspection.notes.iter().cloned()).collect()
 }
 
