@@ -189,23 +189,30 @@ pub(crate) fn unique(names: Vec<String>) -> Vec<String> {
     unique
 }
 
+/// Where the column stands that `wanted` means: its name, or `#` and its number from 1.
+pub(crate) fn place<'a>(mut names: impl Iterator<Item = &'a str> + Clone, wanted: &str) -> Option<usize> {
+    let count = names.clone().count();
+    names.position(|n| n == wanted).or_else(|| numbered(wanted)?.checked_sub(1).filter(|index| *index < count))
+}
+
+fn numbered(wanted: &str) -> Option<usize> {
+    wanted.strip_prefix('#')?.parse().ok()
+}
+
 /// The column that a user named: by its name, or as `#3` counted from 1.
 ///
 /// # Errors
 /// [`Error::Usage`] with the names there are and the nearest.
 pub(crate) fn find<'a>(names: impl Iterator<Item = &'a str> + Clone, wanted: &str) -> Result<usize> {
-    if let Some(index) = names.clone().position(|n| n == wanted) {
+    if let Some(index) = place(names.clone(), wanted) {
         return Ok(index);
     }
     let count = names.clone().count();
-    if let Some(number) = wanted.strip_prefix('#').and_then(|n| n.parse::<usize>().ok()) {
-        return match number.checked_sub(1) {
-            Some(index) if index < count => Ok(index),
-            _ => Err(Error::usage(format!("there is no column {wanted}"), format!("columns are #1 to #{count}"))),
-        };
+    if numbered(wanted).is_some() {
+        return Err(Error::usage(format!("there is no column {wanted}"), format!("columns are #1 to #{count}")));
     }
     let mut help = match nearest(wanted, names.clone()) {
-        Some(near) => format!("did you mean `{near}`? "),
+        Some(near) => format!("did you mean `{}`? ", super::printable(near)),
         None => String::new(),
     };
     const SHOWN: usize = 30;
@@ -220,6 +227,16 @@ pub(crate) fn find<'a>(names: impl Iterator<Item = &'a str> + Clone, wanted: &st
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_number_is_a_place_and_a_name_goes_before_it() {
+        let names = ["t", "#1", "x"].into_iter();
+        assert_eq!(place(names.clone(), "#1"), Some(1));
+        assert_eq!(place(names.clone(), "#3"), Some(2));
+        for none in ["#0", "#4", "y", "#", "#x"] {
+            assert_eq!(place(names.clone(), none), None, "{none}");
+        }
+    }
 
     #[test]
     fn units_are_the_ends_of_names() {

@@ -215,10 +215,11 @@ impl Track {
         self.columns.iter().position(|c| c.kind == ColumnKind::Track)
     }
 
-    /// True when a user who says `name` means `channel`: its own name, or that of its column.
+    /// True when a user who says `name` means `channel`: its own name, or the name or number of its column.
     #[must_use]
     pub fn means(&self, name: &str, channel: &Channel) -> bool {
-        channel.name == name || self.columns.get(channel.column).is_some_and(|c| c.name == name)
+        let column = || names::place(self.columns.iter().map(|c| c.name.as_str()), name);
+        channel.name == name || column() == Some(channel.column)
     }
 
     /// The channel that goes with `channel` under this name: in a table of several tracks the column of that name, or
