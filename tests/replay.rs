@@ -164,6 +164,7 @@ fn a_tampered_session_is_refused_with_key_and_line() {
 fn a_tampered_decision_is_refused_with_key_and_line() {
     refused("value = \"55.21\"", "value = \"55.20\"", &["row 91 of vx_mps", "value", "55.20", "55.21"]);
     refused("time = \"91.0\"", "time = \"91.1\"", &["row 91 of vx_mps", "time", "91.1"]);
+    refused("time = \"91.0\", ", "", &["row 91 of vx_mps", "the time is \"91.0\"", "made at \"\""]);
     refused("{ row = 91", "{ row = 92", &["row 92 of vx_mps", "55.21"]);
     refused("{ row = 91", "{ row = 9100", &["row 9100", "2356 rows"]);
     refused("{ row = 91", "{ row = 0", &["row = 0"]);

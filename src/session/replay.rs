@@ -169,8 +169,9 @@ fn misfits(
                 misfit(*plan, text, format!("the value is {value:?}, the decision was made on {:?}", text.value));
                 continue;
             }
+            // Empty on both sides where the time is the number of the sample.
             let time = track.time.column.map(|c| cells.text(c)).unwrap_or_default();
-            if !text.time.is_empty() && time != text.time.as_str() && track.time.column.is_some() {
+            if time != text.time.as_str() {
                 misfit(*plan, text, format!("the time is {time:?}, the decision was made at {:?}", text.time));
             } else if channel_value(track, &plans[*plan].channel, row).is_nan() {
                 misfit(*plan, text, "decided on, but it has no value or no usable time".into());

@@ -10,12 +10,13 @@ use crate::track::{RowChecks, Track, for_each_row};
 /// The text of the session file at `path` for `session` on `track`, with the result of `analysed` recorded in it.
 ///
 /// # Errors
-/// When the input cannot be read again, or is no longer the one that was loaded.
+/// When the input cannot be read again, or is no longer the one that was loaded, and [`crate::error::Error::Input`] for a
+/// record whose name no text can hold.
 pub fn document(session: &mut Session, track: &Track, analysed: &Analysed, path: &Path) -> Result<String> {
     session.data.row_check = Some(RowChecks::of(track)?.to_string());
     session.result = Some(analysed.recorded(track)?);
     let texts = texts(session, track)?;
-    Ok(render(session, path, &texts))
+    render(session, path, &texts)
 }
 
 /// For each plan, time and value of each decided row as the file has them.

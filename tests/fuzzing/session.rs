@@ -14,7 +14,7 @@ pub(super) fn body(data: &[u8]) {
     assert!(!session.plans.is_empty());
     let texts: Vec<Vec<(String, String)>> =
         session.plans.iter().map(|p| vec![("0".into(), "1".into()); p.decisions.len()]).collect();
-    let again = parse(path, &render(&session, path, &texts)).expect("what is written is read");
+    let again = parse(path, &render(&session, path, &texts).expect("names are text")).expect("what is written is read");
     assert_eq!(again.plans, session.plans);
     assert_eq!((again.result, again.data.rows), (session.result, session.data.rows));
     assert_eq!(again.data.options, session.data.options);

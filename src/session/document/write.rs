@@ -4,14 +4,18 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::FORMAT;
+use crate::error::{Error, Result};
 use crate::param::{Param, Settings, Value};
 use crate::session::{Data, Plan, Session, folder_of};
-use crate::track::{Source, Worded};
+use crate::track::{Source, Worded, is_hidden};
 
 /// The session file for a session that lies at `path`. `texts` gives, for each plan, the texts of time and value of
 /// each decided row, in the order of the rows.
-#[must_use]
-pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -> String {
+///
+/// # Errors
+/// [`Error::Input`] for a record whose name no text can hold.
+pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -> Result<String> {
+    let record = reference(&session.data.source, path)?;
     let mut out = String::new();
     let mut line = |text: String| {
         out.push_str(&text);
@@ -20,7 +24,7 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
     line(format!("format = {FORMAT}"));
     line(format!("program = {}", quoted(concat!("wildpoint ", env!("CARGO_PKG_VERSION")))));
     line("\n[data]".into());
-    line(format!("file = {}", quoted(&reference(&session.data.source, path))));
+    line(format!("file = {}", quoted(&record)));
     line(format!("sha256 = {}", quoted(&session.data.sha256)));
     line(format!("rows = {}", session.data.rows));
     loading(&session.data).into_iter().for_each(&mut line);
@@ -40,7 +44,7 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
         line(format!("flagged = {}", result.flagged));
         line(format!("clean_sha256 = {}", quoted(&result.clean_sha256)));
     }
-    out
+    Ok(out)
 }
 
 /// The lines of what the loader was told, and of the sums of the rows.
@@ -103,9 +107,9 @@ fn decisions(plan: &Plan, texts: &[(String, String)]) -> Vec<String> {
 }
 
 /// How a session at `session` names its record.
-fn reference(source: &Source, session: &Path) -> String {
+fn reference(source: &Source, session: &Path) -> Result<String> {
     let file = match source {
-        Source::BuiltIn { name, .. } => return (*name).to_owned(),
+        Source::BuiltIn { name, .. } => return Ok((*name).to_owned()),
         Source::File(file) => file,
     };
     let whole = |p: &Path| std::path::absolute(p).unwrap_or_else(|_| p.to_path_buf());
@@ -116,7 +120,10 @@ fn reference(source: &Source, session: &Path) -> String {
     let mut path = PathBuf::new();
     from.components().skip(common).for_each(|_| path.push(".."));
     to.components().skip(common).for_each(|c| path.push(c));
-    path.to_string_lossy().replace('\\', "/")
+    let what = "its name is no UTF-8, and a session, which is text, could not find it again";
+    let text = path.to_str().ok_or_else(|| Error::input(file, what, "give it another name, then load it again"))?;
+    // Elsewhere a backslash is a character like any other.
+    Ok(if cfg!(windows) { text.replace('\\', "/") } else { text.to_owned() })
 }
 
 fn inline(settings: &Settings) -> String {
@@ -138,8 +145,9 @@ fn quoted(text: &str) -> String {
             }
             '\n' => out.push_str("\\n"),
             '\t' => out.push_str("\\t"),
-            c if c.is_control() => {
-                let _ = write!(out, "\\u{:04X}", u32::from(c));
+            c if c.is_control() || is_hidden(c) => {
+                let code = u32::from(c);
+                let _ = if code > 0xffff { write!(out, "\\U{code:08X}") } else { write!(out, "\\u{code:04X}") };
             }
             c => out.push(c),
         }
