@@ -268,6 +268,43 @@ fn a_time_that_steps_back_or_repeats_is_still_the_time() {
     assert_eq!(load(&source, &LoadOptions::default()).unwrap().time.name, "sample");
 }
 
+/// What is noted of a record of this text.
+fn notes(text: &str, options: &LoadOptions) -> Vec<String> {
+    let source = Source::BuiltIn { name: "test", bytes: text.as_bytes().into() };
+    load(&source, options).unwrap().notes
+}
+
+#[test]
+fn a_time_column_that_cannot_be_read_is_told() {
+    for (first, second) in [
+        ("2024-03-31 01:30:00 CET", "2024-03-31 01:30:01 CET"),
+        ("03/31/2024 01:30:00 PM", "03/31/2024 01:30:01 PM"),
+        ("31 Mar 2024 01:30:00", "31 Mar 2024 01:30:01"),
+    ] {
+        let text = format!("time,x\n{first},1\n{second},2\n");
+        let told = notes(&text, &LoadOptions::default());
+        let wanted =
+            format!("time is the sample number, since `time` holds no times that can be read: {first}; times are");
+        assert!(matches!(&told[..], [note] if note.starts_with(&wanted)), "{told:?}");
+        assert_eq!(notes(&text, &LoadOptions { time: Some("sample".into()), ..LoadOptions::default() }), [""; 0]);
+    }
+    // Words that are no time, under a name that is none.
+    assert_eq!(notes("site,x\na,1\nb,2\n", &LoadOptions::default()), [""; 0]);
+}
+
+#[test]
+fn numbers_with_commas_between_commas_are_told() {
+    let text = "t,x,y\n0,\"1,5\",1\n1,\"2,5\",2\n2,\"3,5\",3\n";
+    let told = notes(text, &LoadOptions::default());
+    assert!(matches!(&told[..], [note] if note.starts_with("`x` holds numbers with commas: say --decimal-comma")));
+    assert_eq!(notes(text, &LoadOptions { decimal_comma: Some(true), ..LoadOptions::default() }), [""; 0]);
+    assert_eq!(notes("t,x,y\n0,\"1,a\",1\n1,\"2,5\",2\n", &LoadOptions::default()), [""; 0]);
+    // Nothing else is there.
+    let alone = Source::BuiltIn { name: "test", bytes: b"t,x\n0,\"1,5\"\n1,\"2,5\"\n".as_slice().into() };
+    let e = load(&alone, &LoadOptions::default()).unwrap_err().to_string();
+    assert!(e.contains("no column of numbers besides the time") && e.contains("`x` holds numbers with commas"), "{e}");
+}
+
 #[test]
 fn a_truth_column_is_not_about_a_channel_loaded_alone_that_its_name_does_not_fit() {
     let text = "t,vx_mps,alt_m,vx_truth_outlier\n0,1,2,0\n1,1,2,1\n2,1,2,0\n";

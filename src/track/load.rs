@@ -170,7 +170,7 @@ impl Understood {
             time: time_axis(head, timing, body.rows),
             truth: truth_of(&columns, roles, &body, path)?,
             truth_told: roles.truth.is_some(),
-            channels: channels_of(&columns, roles, &mut body, path)?,
+            channels: channels_of(&columns, roles, &mut body, (head, path))?,
             faults: cell_faults(&columns, roles, &body),
             columns,
             notes: Vec::new(),
@@ -185,7 +185,7 @@ impl Understood {
             (None, Some(of_row)) => track.time.seconds = sample_numbers(of_row),
             (None, None) => {}
         }
-        track.notes.extend(notes::about_shape(&track, head));
+        track.notes.extend(notes::about_shape(&track, head, options.time.is_some()));
         Ok(track)
     }
 
@@ -266,7 +266,12 @@ fn truth_of(columns: &[Column], roles: &Roles, body: &Body, path: &Path) -> Resu
     Ok(Some(body.numbers[slot].values.iter().map(|v| *v == 1.0).collect()))
 }
 
-fn channels_of(columns: &[Column], roles: &Roles, body: &mut Body, path: &Path) -> Result<Vec<Channel>> {
+fn channels_of(
+    columns: &[Column],
+    roles: &Roles,
+    body: &mut Body,
+    (head, path): (&Head, &Path),
+) -> Result<Vec<Channel>> {
     let by_kind = || (0..columns.len()).filter(|c| columns[*c].kind == ColumnKind::Number).collect();
     let wanted: Vec<usize> = roles.channels.clone().unwrap_or_else(by_kind);
     let channel = |index: usize| {
@@ -280,7 +285,10 @@ fn channels_of(columns: &[Column], roles: &Roles, body: &mut Body, path: &Path) 
         return Err(Error::input(
             path,
             format!("no column of numbers besides the time; the columns are {}", names.join(", ")),
-            "choose another time column with --time (`sample` for the sample number), or name a file with numbers",
+            notes::column_of_commas(columns, head).map_or_else(
+                || "choose another time column with --time (`sample` for the sample number), or name a file with numbers".into(),
+                |column| notes::about_commas(&columns[column].name),
+            ),
         ));
     }
     Ok(channels)

@@ -3,7 +3,8 @@
 use super::cells::Cells;
 use super::feed::Feed;
 use super::head::Head;
-use super::{ColumnKind, Fault, TimeFormat, Track, names, printable, rows, timing};
+use super::number::Reading;
+use super::{Column, ColumnKind, Fault, TimeFormat, Track, names, printable, rows, timing};
 use crate::error::Result;
 
 /// The note for a record in which more than a tenth of the rows lie before an earlier one, from `row` on.
@@ -48,8 +49,37 @@ pub(crate) fn about_backward_times(track: &Track, text: &mut Feed<'_>, row: usiz
     ))
 }
 
-/// Notes about rows of several kinds, and about a time column that has no name.
-pub(crate) fn about_shape(track: &Track, head: &Head) -> Vec<String> {
+/// The first column of text of which every cell is a number with a decimal comma (or with commas between thousands).
+pub(crate) fn column_of_commas(columns: &[Column], head: &Head) -> Option<usize> {
+    let reading = Reading::new(true, &[]);
+    let number = |cell: &&str| cell.is_empty() || reading.number(cell.as_bytes()).is_some();
+    let all = |c: usize| head.column(c).iter().any(|cell| cell.contains(',')) && head.column(c).iter().all(number);
+    if head.reading.decimal_comma {
+        None
+    } else {
+        (0..columns.len()).find(|c| columns[*c].kind == ColumnKind::Text && all(*c))
+    }
+}
+
+/// What to do about such a column.
+pub(crate) fn about_commas(name: &str) -> String {
+    format!(
+        "`{}` holds numbers with commas: say --decimal-comma, or take the commas away where they part thousands",
+        printable(name)
+    )
+}
+
+/// A column of words that is named like a time, and its first cell.
+fn unread_time<'a>(track: &'a Track, head: &'a Head) -> Option<(&'a str, &'a str)> {
+    let named = |(_, c): &(usize, &Column)| c.kind == ColumnKind::Text && names::time_rank(&c.name) >= 3;
+    let (column, found) = track.columns.iter().enumerate().find(named)?;
+    let cell = head.column(column).into_iter().find(|cell| !cell.is_empty())?;
+    Some((&found.name, cell))
+}
+
+/// Notes about rows of several kinds, about a time column that cannot be read unless the time was `told`, and about one
+/// that has no name.
+pub(crate) fn about_shape(track: &Track, head: &Head, told: bool) -> Vec<String> {
     let mut notes = Vec::new();
     let ragged = &track.faults.ragged_rows;
     if ragged.count * 10 > track.rows {
@@ -62,7 +92,17 @@ pub(crate) fn about_shape(track: &Track, head: &Head) -> Vec<String> {
             track.columns.len()
         ));
     }
-    if track.time.format == TimeFormat::SampleNumber
+    notes.extend(column_of_commas(&track.columns, head).map(|c| about_commas(&track.columns[c].name)));
+    let counted = track.time.format == TimeFormat::SampleNumber;
+    if counted && let Some((name, cell)) = unread_time(track, head).filter(|_| !told) {
+        notes.push(format!(
+            "time is the sample number, since `{}` holds no times that can be read: {}; times are {}",
+            printable(name),
+            printable(cell),
+            timing::TIMES
+        ));
+    }
+    if counted
         && track.columns.len() > 1
         && let Some(first) = track.columns.first().filter(|c| c.kind == ColumnKind::Number)
         && timing::increases(head, 0)

@@ -8,6 +8,9 @@ use super::stamp::{self, Count};
 use super::{LoadOptions, TimeFormat, TimeUnit, Worded, names, printable};
 use crate::error::{Error, Result};
 
+/// Times that can be read, in words.
+pub(crate) const TIMES: &str = "numbers (seconds, or since 1970), 2019-01-31T12:00:00.5Z, 1/31/2019 or 12:00:00.5";
+
 /// The time of the file: where it stands and how it is read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Timing {
@@ -81,7 +84,7 @@ impl Form {
             Some(Self::Iso { date_only: date_only() })
         } else if most(&|c| stamp::clock(c).is_some()) {
             Some(Self::Clock)
-        } else if most(&|c| stamp::year_last_parts(c).is_some()) {
+        } else if most(&|c| [true, false].iter().any(|first| stamp::year_last(c, *first).is_some())) {
             Some(Self::YearLast { date_only: date_only() })
         } else if most(&|c| stamp::count(c, 1, head.reading.decimal_comma).is_some()) {
             Some(Self::Number)
@@ -264,7 +267,7 @@ fn unreadable(head: &Head, column: usize, path: &Path) -> Error {
             }
             None => format!("`{}` is empty", printable(&head.names[column])),
         },
-        help: "times are numbers (seconds, or since 1970), 2019-01-31T12:00:00.5Z, 1/31/2019 or 12:00:00.5".into(),
+        help: format!("times are {TIMES}"),
     }
 }
 
