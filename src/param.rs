@@ -56,7 +56,7 @@ pub enum Kind {
     Choice(&'static [&'static str]),
     /// Yes or no.
     Switch,
-    /// One of a few words, or a number above `min`, in the channel's units.
+    /// One of a few words, or a number.
     RealOr {
         /// The words, the default one first.
         words: &'static [&'static str],
@@ -119,7 +119,11 @@ impl Param {
             Kind::Real { min, max, .. } => format!("{min} .. {max}"),
             Kind::Choice(words) => words.join(" | "),
             Kind::Switch => "true | false".into(),
-            Kind::RealOr { words, min, .. } => format!("{} | a number from {min}", words.join(" | ")),
+            Kind::RealOr { words, min, max } => {
+                let least = if min == f64::MIN_POSITIVE { "above 0".into() } else { format!("from {min}") };
+                let most = if max > 1e15 { format!("{max:e}") } else { max.to_string() };
+                format!("{} | a number {least} to {most}", words.join(" | "))
+            }
             Kind::WholeOrOff { min, max } => format!("off | {min} .. {max}"),
         }
     }
@@ -257,6 +261,14 @@ mod tests {
         paper: None,
         matters: always,
     };
+
+    #[test]
+    fn both_limits_of_a_number_are_told() {
+        let of = |min, max| Param { kind: Kind::RealOr { words: &["auto", "off"], min, max }, ..K }.range();
+        assert_eq!(of(0.0, 1e300), "auto | off | a number from 0 to 1e300");
+        assert_eq!(of(f64::MIN_POSITIVE, 1e300), "auto | off | a number above 0 to 1e300");
+        assert_eq!(of(1.0, 1000.0), "auto | off | a number from 1 to 1000");
+    }
 
     #[test]
     fn ten_steps_up_and_ten_down_end_where_they_began() {
