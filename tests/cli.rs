@@ -250,3 +250,30 @@ fn without_a_terminal_one_frame_of_the_size_and_a_summary_are_printed() {
     }
     assert!(folder.done("--size 80x24").contains(" wildpoint:demo · vx_mps"), "the built-in record");
 }
+
+#[test]
+fn a_flag_from_a_tolerance_of_nothing_has_that_for_its_reason() {
+    let mut text = String::from("t,x\n");
+    (0..30).for_each(|i| text += &format!("{i},{}\n", if i == 14 { 9.0 } else { 7.5 }));
+    let folder = Folder::with(&[("a.csv", text.as_bytes())]);
+    folder.done("clean a.csv --method wright --set floor=0 --flags f.csv --diagnostics d.csv");
+    // row,time,channel,raw,verdict,kind,run_start,run_length,expected,tolerance,ratio: a ratio to 0 is none.
+    assert!(folder.text("f.csv").contains("\n15,14,x,9,outlier,isolated,15,1,7.5,0,,"), "{}", folder.text("f.csv"));
+    let diagnostics = folder.text("d.csv");
+    assert!(diagnostics.contains("\n15,14,x,9,outlier,7.5,0,\n"), "{diagnostics}");
+    assert!(diagnostics.contains("\n14,13,x,7.5,normal,7.5,,7.5\n"), "{diagnostics}");
+}
+
+#[test]
+#[cfg(unix)]
+fn a_limit_on_the_size_of_files_is_told_and_leaves_the_old_file() {
+    let folder = Folder::with_demo();
+    std::fs::write(folder.path("c.csv"), "old").unwrap();
+    let mut shell = assert_cmd::Command::new("sh");
+    shell.current_dir(folder.path("")).args(["-c", "ulimit -f 20; exec \"$0\" clean demo.csv -o c.csv --force"]);
+    let ran = shell.arg(env!("CARGO_BIN_EXE_wildpoint")).output().unwrap();
+    let err = String::from_utf8_lossy(&ran.stderr);
+    assert!(ran.status.code() == Some(2) && err.contains("c.csv: cannot write") && err.contains("ulimit -f"), "{err}");
+    assert_eq!(folder.names(), ["c.csv", "demo.csv"]);
+    assert_eq!(folder.text("c.csv"), "old");
+}

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use super::{cell, time_text, verdict_word, walk, write_row};
 use crate::error::{Error, Result};
+use crate::method::Verdict;
 use crate::session::{Analysed, Session};
 use crate::track::{Track, inert};
 
@@ -20,6 +21,7 @@ pub fn diagnostics(track: &Track, session: &Session, analysed: &Analysed, out: &
     walk(track, session, analysed, |row, cells, channel| {
         let position = channel.position(row);
         let judged = &channel.outcome.detection.judged;
+        let flagged = position.is_some_and(|p| channel.outcome.verdict(p) == Verdict::Outlier);
         let clean = position.map_or_else(|| channel.fill(row), |p| channel.clean(p));
         let fields: [&str; 8] = [
             &(row + 1).to_string(),
@@ -28,7 +30,7 @@ pub fn diagnostics(track: &Track, session: &Session, analysed: &Analysed, out: &
             &cell(channel.raw(track, row, position)),
             verdict_word(channel.outcome, position),
             &cell(position.and_then(|p| judged.expected().get(p).copied())),
-            &cell(position.and_then(|p| judged.tolerance(p)).filter(|h| *h > 0.0)),
+            &cell(position.and_then(|p| judged.tolerance(p)).filter(|h| *h > 0.0 || flagged)),
             &cell(clean),
         ];
         write_row(&mut writer, &fields)

@@ -86,7 +86,7 @@ pub(super) struct Evidence {
     pub(super) run: Option<InRun>,
     /// The expected value.
     pub(super) expected: Option<f64>,
-    /// The tolerance, above 0.
+    /// The tolerance; 0 only for a flag (where 0 flags nothing it is none).
     pub(super) tolerance: Option<f64>,
     /// What the extrapolation from before says.
     pub(super) forward: Option<Direction>,
@@ -114,7 +114,8 @@ pub(super) struct InRun {
 impl Evidence {
     /// |raw - expected| / tolerance.
     pub(super) fn ratio(&self) -> Option<f64> {
-        self.expected.zip(self.tolerance).map(|(p, h)| (self.raw - p).abs() / h)
+        let tolerance = self.tolerance.filter(|h| *h > 0.0);
+        self.expected.zip(tolerance).map(|(p, h)| (self.raw - p).abs() / h)
     }
 
     /// What is done with the sample: `repaired`, `removed` or `kept`.
@@ -153,7 +154,7 @@ pub(super) fn evidence(session: &Session, channel: &Walk<'_>, row: usize, positi
         state: mark.and_then(crate::plot::state),
         run: outcome.run(position).map(in_run),
         expected: judged.expected().get(position).copied().filter(|p| p.is_finite()),
-        tolerance: judged.tolerance(position).filter(|h| *h > 0.0),
+        tolerance: judged.tolerance(position).filter(|h| *h > 0.0 || verdict == Verdict::Outlier),
         forward: directions.and_then(|d| d.forward),
         backward: directions.and_then(|d| d.backward),
         clean: channel.clean(position),
