@@ -27,13 +27,14 @@ fn content(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 #[test]
+#[expect(clippy::print_stdout, reason = "figures for whoever runs it with --nocapture")]
 fn a_disk_that_fails_at_any_place_leaves_the_old_files_whole_and_nothing_else() {
     let track = load(&Source::demo(), &LoadOptions::default()).unwrap();
     let mut session = Session::new(&track, LoadOptions::default(), &Setup::standard());
     let decision = Decision { ruling: Ruling::Outlier, note: "glint".into(), said: None };
     session.plans[0].decisions.set(60, Some(decision));
     let analysed = Analysed::of(&session, &track, &Stop::never()).unwrap();
-    let mut survived = 0;
+    let (mut injected, mut survived) = (0, 0);
     for (cleaned, old) in [("a.csv", true), ("a.csv", false), ("a.csv.gz", true), ("a.csv.gz", false)] {
         for fault in 0.. {
             let folder = tempfile::tempdir().unwrap();
@@ -47,6 +48,7 @@ fn a_disk_that_fails_at_any_place_leaves_the_old_files_whole_and_nothing_else() 
             let hit = faults::passed() > fault;
             faults::fail_at(None);
             let after = content(folder.path());
+            injected += usize::from(hit);
             if saved.is_err() {
                 assert!(matches!(&saved, Err(Error::Io { .. })), "{saved:?}");
                 assert!(after == before, "{cleaned}, old {old}, place {fault}: {:?}", after.keys());
@@ -61,5 +63,10 @@ fn a_disk_that_fails_at_any_place_leaves_the_old_files_whole_and_nothing_else() 
             }
         }
     }
-    assert!(survived >= 40, "only {survived} faults");
+    println!(
+        "faults injected: {injected}; failed saves that left all files as they were: {survived}; saves that went on: {}",
+        injected - survived
+    );
+    // A census: a place that is no longer asked, or a new one, changes these on purpose.
+    assert_eq!((injected, survived), (52, 48));
 }
