@@ -43,6 +43,7 @@ mod hit;
 pub mod input;
 pub mod journal;
 pub mod keys;
+pub mod known;
 pub mod layout;
 pub mod message;
 pub mod model;

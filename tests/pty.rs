@@ -156,6 +156,31 @@ fn nothing_is_overwritten_without_being_told_to() {
 }
 
 #[test]
+fn a_session_that_another_workbench_saved_meanwhile_is_not_written_over_unseen() {
+    let (folder, mut terminal) = workbench(WIDE);
+    terminal.keys("a:w s.toml\r");
+    terminal.wait_for("saved s.toml");
+    // The other one opens it, decides and saves; its own file needs no question.
+    let mut other = Terminal::start(&folder.path(""), "s.toml", WIDE, &[]);
+    other.wait_for("5 flag 1 of ");
+    other.settle();
+    other.keys("nr\x13");
+    other.wait_for("saved s.toml");
+    let theirs = folder.text("s.toml");
+    assert_eq!(theirs.matches("verdict = ").count(), 2, "{theirs}");
+    terminal.keys("u\x13");
+    terminal.wait_for("s.toml has changed since it was read or saved here");
+    terminal.keys("\x1b");
+    terminal.wait_until("no question", |screen| !screen.contents().contains("has changed since"));
+    assert_eq!(folder.text("s.toml"), theirs);
+    terminal.keys("\x13");
+    terminal.wait_for("overwrite it");
+    terminal.keys("o");
+    terminal.wait_for("saved s.toml");
+    assert_eq!(folder.text("s.toml").matches("verdict = ").count(), 0);
+}
+
+#[test]
 fn quitting_asks_when_something_is_unsaved_and_gives_the_terminal_back() {
     let (folder, mut terminal) = workbench(COMPACT);
     terminal.keys("a");
@@ -175,7 +200,7 @@ fn quitting_asks_when_something_is_unsaved_and_gives_the_terminal_back() {
 
 #[test]
 fn signals_give_the_terminal_back() {
-    for (name, number) in [("TERM", 15), ("HUP", 1), ("INT", 2)] {
+    for (name, number) in [("TERM", 15), ("HUP", 1), ("INT", 2), ("QUIT", 3)] {
         let (_folder, mut terminal) = workbench(COMPACT);
         terminal.keys("a");
         terminal.wait_for("accepted row 61");

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crossbeam_channel::Sender;
 
 use super::advice::StepsJob;
+use super::known::Known;
 use super::message::{Message, Output, OutputKind, Written};
 use super::model::Model;
 use super::words::counted;
@@ -147,23 +148,30 @@ pub struct Errand {
     pub overwrite: bool,
 }
 
-/// Writes files on a thread of its own and sends how it went.
-pub fn write(track: Arc<Track>, session: Session, errand: Errand, results: Sender<Message>) {
+/// Writes files on a thread of its own and sends how it went. A session file that is as `known` is written again even
+/// where nothing may be overwritten.
+pub fn write(track: Arc<Track>, session: Session, errand: Errand, known: Known, results: Sender<Message>) {
     std::thread::spawn(move || {
         let result = match &errand.what {
-            Written::Session { .. } => save(&track, session, &errand),
+            Written::Session { .. } => save(&track, session, &errand, &known),
             Written::Exported { outputs, .. } => export(&track, &session, outputs, errand.overwrite),
         };
+        if let (Ok(_), Written::Exported { .. }, Some(path)) =
+            (&result, &errand.what, errand.what.session(&errand.path))
+        {
+            known.read(path);
+        }
         let _ = results.send(Message::Written { what: errand.what, path: errand.path, result });
     });
 }
 
-fn save(track: &Track, mut session: Session, errand: &Errand) -> Result<String> {
+fn save(track: &Track, mut session: Session, errand: &Errand, known: &Known) -> Result<String> {
     let analysed = Analysed::of(&session, track, &Stop::never())?;
     let text = document(&mut session, track, &analysed, &errand.path)?;
-    let mut files = outputs_of(track, errand.overwrite);
+    let mut files = outputs_of(track, errand.overwrite || known.still(&errand.path));
     files.stage(&errand.path, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", &errand.path)))?;
     files.commit()?;
+    known.wrote(&errand.path, text.as_bytes());
     let channels = session.plans.iter().map(|p| p.channel.as_str()).collect::<Vec<_>>().join(", ");
     let decisions: usize = session.plans.iter().map(|p| p.decisions.len()).sum();
     let path = errand.path.display();

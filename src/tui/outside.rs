@@ -1,6 +1,6 @@
 //! What carries out the effects of the workbench: workers, files, the journal and the terminal.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -10,8 +10,9 @@ use super::advice::{self, Advise};
 use super::consensus::{self, Poll, Polling};
 use super::files::{Desk, Task};
 use super::journal::Journal;
+use super::known::Known;
 use super::message::{Effect, Message, Written};
-use super::model::Model;
+use super::model::{Model, Overlay};
 use super::office::{self, Errand, Judge};
 use super::terminal::Screen;
 use super::update::update;
@@ -43,6 +44,7 @@ pub(super) struct Outside {
     /// The folder of journals.
     folder: Option<PathBuf>,
     desk: Desk,
+    known: Known,
 }
 
 impl Outside {
@@ -53,7 +55,9 @@ impl Outside {
         let journal = Journal::start(folder.clone(), model, sender.clone());
         let poller = consensus::poll(sender.clone());
         let desk = Desk::new(sender.clone(), folder.as_deref());
-        Self { worker, advisor, advising: false, poller, sender, messages, journal, folder, desk }
+        let known = Known::default();
+        sessions(model).into_iter().for_each(|file| known.read(file));
+        Self { worker, advisor, advising: false, poller, sender, messages, journal, folder, desk, known }
     }
 
     /// The same for a model that has taken the place of another, whose work is saved or not wanted.
@@ -164,6 +168,14 @@ impl Outside {
     }
 
     fn write(&self, model: &Model, errand: Errand) {
-        office::write(Arc::clone(&model.track), model.document(), errand, self.sender.clone());
+        office::write(Arc::clone(&model.track), model.document(), errand, self.known.clone(), self.sender.clone());
     }
+}
+
+/// The session files that the work may go on in: the one that was opened, and those of offered journals that are as
+/// they were then.
+fn sessions(model: &Model) -> Vec<&Path> {
+    let offered = if let Overlay::Recover(found) = &model.overlay { found.as_slice() } else { &[] };
+    let unchanged = offered.iter().filter(|found| !found.session_changed).filter_map(|found| found.session.as_deref());
+    model.file.as_deref().into_iter().chain(unchanged).collect()
 }

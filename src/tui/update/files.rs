@@ -63,12 +63,11 @@ fn stem(source: &Source) -> String {
 }
 
 pub(super) fn save(model: &mut Model, path: Option<PathBuf>, force: bool, then_quit: bool) -> Vec<Effect> {
-    // The file this session was opened from or saved to before may be written again without asking.
-    let known = path.is_none() || path == model.file;
-    let overwrite = force || (known && model.file.is_some());
+    // The file this session was opened from or saved to before is written again without asking, where nobody else has
+    // changed it since: that is seen to when it is written.
     let path = path.or_else(|| model.file.clone()).unwrap_or_else(|| default_session(&model.track.source));
     model.say(Tone::Done, format!("saving {} …", path.display()));
-    vec![Effect::Save { path, overwrite, then_quit }]
+    vec![Effect::Save { path, overwrite: force, then_quit }]
 }
 
 pub(super) fn written(model: &mut Model, what: &Written, path: &Path, result: Result<String>) -> Vec<Effect> {

@@ -30,7 +30,13 @@ pub(super) fn draw(model: &Model, dialog: &Dialog, area: Rect, buffer: &mut Buff
             question(model, "not saved", first, &[("w", &save), ("d", &drop), ("Esc", "stay")], area, buffer);
         }
         Dialog::Over(Over { path, .. }) => {
-            let first = format!("{} is there already.", printable(&path.display().to_string()));
+            let name = printable(&path.display().to_string());
+            // Its own file is asked about only then.
+            let first = if model.file.as_ref() == Some(path) {
+                format!("{name} has changed since it was read or saved here.")
+            } else {
+                format!("{name} is there already.")
+            };
             question(model, "overwrite?", &first, &[("o", "overwrite it"), ("Esc", "leave it")], area, buffer);
         }
     }
