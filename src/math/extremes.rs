@@ -56,6 +56,11 @@ impl<'a> Extremes<'a> {
     /// When all that are left stand at one end, gives the half that lies at the other side to the other end: the
     /// centre may have moved past them all.
     fn share<E: Send>(&mut self, check: &impl Check<E>) -> Result<(), E> {
+        let all = if self.upper.is_empty() { &self.lower } else { &self.upper };
+        // All are equal, as those of a constant: there is nothing to share, however often it is asked.
+        if all.first().map(|v| v.0) == all.last().map(|v| v.0) {
+            return Ok(());
+        }
         let (mut lower, mut upper) = (std::mem::take(&mut self.lower), std::mem::take(&mut self.upper));
         let (from, to) = if upper.is_empty() { (&mut lower, &mut upper) } else { (&mut upper, &mut lower) };
         // Equal values stay together, so that the earliest of them comes first whichever end they are at.
@@ -150,6 +155,27 @@ mod tests {
                 prop_assert_eq!(next(&mut extremes, mean, scale), Some(left.remove(far)));
             }
             prop_assert_eq!(next(&mut extremes, 0.0, 1.0), None);
+        }
+    }
+
+    #[test]
+    fn many_equal_values_are_not_gone_through_for_each() {
+        use std::sync::atomic::{AtomicUsize, Ordering};
+        let looks = AtomicUsize::new(0);
+        let check = || {
+            looks.fetch_add(1, Ordering::Relaxed);
+            Ok(())
+        };
+        let n = 200_000;
+        for values in [vec![7.5; n], (0..n).map(|i| f64::from(u8::from(i % 3 == 0))).collect()] {
+            looks.store(0, Ordering::Relaxed);
+            let mut extremes = Extremes::new(&values);
+            for _ in 0..n / 2 {
+                assert!(certain(extremes.next(0.5, || 0.5, &check)).is_some());
+            }
+            // A look for each piece of a pass: so many passes go through the values.
+            let passes = looks.load(Ordering::Relaxed) * pieces::PIECE / n;
+            assert!(passes < 40, "{passes} passes");
         }
     }
 
