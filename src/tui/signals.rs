@@ -22,8 +22,8 @@ pub(super) const HANG_UP: i32 = 1;
 
 #[cfg(unix)]
 pub(super) fn listen() -> Result<Receiver<Signalled>> {
-    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP};
-    let mut signals = signal_hook::iterator::Signals::new([SIGTERM, SIGHUP, SIGINT, SIGTSTP, SIGCONT])
+    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
+    let mut signals = signal_hook::iterator::Signals::new([SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGTSTP, SIGCONT])
         .map_err(|source| Error::Io { action: "listen for", path: "signals".into(), source })?;
     let (sender, receiver) = crossbeam_channel::unbounded();
     std::thread::spawn(move || {
@@ -73,6 +73,7 @@ impl Ended {
         let name = match signal {
             HANG_UP => "the terminal is gone (SIGHUP)",
             2 => "interrupted (SIGINT)",
+            3 => "ended (SIGQUIT)",
             15 => "terminated (SIGTERM)",
             _ => "ended by a signal",
         };
