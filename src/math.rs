@@ -6,6 +6,7 @@ pub mod extremes;
 pub mod gains;
 pub mod huber;
 pub mod integral;
+pub mod least_spread;
 pub mod leave_one_out;
 pub mod line;
 pub mod line_of_five;

@@ -64,9 +64,9 @@ fn middle_of_smallest(values: &mut [f64], middle: usize, odd: bool) -> f64 {
     if odd { upper } else { mean_of_two(below.iter().copied().fold(f64::NEG_INFINITY, f64::max), upper) }
 }
 
-/// Those of many values that lie between two limits: for medians that are asked for again and again of ever other
-/// parts.
-#[derive(Debug, Clone)]
+/// Those of many values that lie between two limits, for medians that are asked for again and again of ever other
+/// parts, and those of the tail, which say how large such a part is.
+#[derive(Debug, Clone, Default)]
 pub struct Middle {
     below: usize,
     /// Those within the limits but not at the upper one.
@@ -74,30 +74,60 @@ pub struct Middle {
     /// How many are the upper limit.
     at_end: usize,
     end: f64,
+    tail: Vec<f64>,
+    tail_from: f64,
 }
 
 impl Middle {
-    /// The values within `limits`; none of `values` may be NaN.
+    /// Of `value(0 .. n)`, none of which may be NaN, those within `limits` and those from `tail_from` on.
     ///
     /// # Errors
     /// What `check` gives.
-    pub fn of<E: Send>(values: &[f64], limits: RangeInclusive<f64>, check: &impl Check<E>) -> Result<Self, E> {
+    pub fn of<E: Send>(
+        n: usize,
+        value: impl Fn(usize) -> f64 + Sync,
+        limits: RangeInclusive<f64>,
+        tail_from: f64,
+        check: &impl Check<E>,
+    ) -> Result<Self, E> {
         let (start, end) = (*limits.start(), *limits.end());
-        let pieces = pieces::map(values.len(), check, |piece| {
-            let values = &values[piece];
-            let within = values.iter().copied().filter(|v| *v >= start && *v < end).collect::<Vec<f64>>();
-            let below = values.iter().filter(|v| **v < start).count();
-            let up_to_end = values.iter().filter(|v| **v <= end).count();
-            let kept = within.len();
-            (below, within, up_to_end - below - kept)
+        let pieces = pieces::map(n, check, |piece| {
+            let mut found = Self { end, tail_from, ..Self::default() };
+            // Every value is written down, and the next over it where it does not count: no branch to guess.
+            let (mut within, mut kept) = (vec![0.0; piece.len()], 0);
+            let (mut tail, mut far) = (vec![0.0; piece.len()], 0);
+            for v in piece.map(&value) {
+                found.below += usize::from(v < start);
+                found.at_end += usize::from(v >= start && v <= end) - usize::from(v >= start && v < end);
+                within[kept] = v;
+                kept += usize::from(v >= start && v < end);
+                tail[far] = v;
+                far += usize::from(v >= tail_from);
+            }
+            found.within = within[..kept].to_vec();
+            found.tail = tail[..far].to_vec();
+            found
         })?;
-        let mut middle = Self { below: 0, within: Vec::new(), at_end: 0, end };
-        for (below, within, at_end) in pieces {
-            middle.below += below;
-            middle.within.extend(within);
-            middle.at_end += at_end;
+        let mut middle = Self { end, tail_from, ..Self::default() };
+        for piece in pieces {
+            middle.below += piece.below;
+            middle.within.extend(piece.within);
+            middle.at_end += piece.at_end;
+            middle.tail.extend(piece.tail);
         }
         Ok(middle)
+    }
+
+    /// The values from [`Middle::tail_from`] on.
+    #[must_use]
+    pub fn tail(&self) -> &[f64] {
+        &self.tail
+    }
+
+    /// Where the tail begins.
+    #[must_use]
+    pub fn tail_from(&self) -> f64 {
+        self.tail_from
     }
 
     /// The median of the `count` smallest of all values, where what stands in their middle is among these.
@@ -154,7 +184,7 @@ mod tests {
         let spread = |i: usize| ((i * 7919) % 104_729) as f64;
         for n in [100usize, 50_000, 100_001] {
             let sorted = |i: usize| i as f64;
-            // Periodic with the stride of the sample: it sees one value only, and the wrong one.
+            // The same value again and again at even distances.
             let misleading =
                 |i: usize| if i.is_multiple_of(n / 4096 + usize::from(n < 4096)) { 9.0 } else { spread(i) };
             let constant = |_: usize| 3.0;
@@ -177,7 +207,9 @@ mod tests {
         let values: Vec<f64> = (0..40_000).map(|i| f64::from((i * 7919) % 20_011)).collect();
         let mut sorted = values.clone();
         sorted.sort_unstable_by(f64::total_cmp);
-        let middle = certain(Middle::of(&values, 9_000.0..=10_000.0, &to_the_end));
+        let middle = certain(Middle::of(values.len(), |i| values[i], 9_000.0..=10_000.0, 19_000.0, &to_the_end));
+        assert_eq!(middle.tail().len(), values.iter().filter(|v| **v >= middle.tail_from()).count());
+        assert!(middle.tail().iter().all(|v| *v >= 19_000.0));
         let mut known = 0;
         for count in (1..values.len()).step_by(97) {
             let wanted = [(count - 1) / 2, count / 2].map(|rank| sorted[rank]);

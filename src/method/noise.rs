@@ -117,26 +117,31 @@ pub fn auto_floor(series: &Series<'_>, segments: &[Range<usize>], stop: &Stop) -
 
 /// `1.4826 * median |d - median(d)|`, again and again on the differences within three such scales of the median of
 /// all until it stands still: the outliers' share of the tails is cut off.
-fn spread(differences: &mut [f64], stop: &Stop) -> Result<f64, Stopped> {
+fn spread(differences: &[f64], stop: &Stop) -> Result<f64, Stopped> {
     if differences.is_empty() {
         return Ok(0.0);
     }
     let check = || stop.check();
     let n = differences.len();
     let center = median_of_many(n, |i| differences[i], &check)?;
-    pieces::over(differences, &check, |_, d| d.iter_mut().for_each(|d| *d = (*d - center).abs()))?;
-    let differences = &*differences;
-    let median = median_of_many(n, |i| differences[i], &check)?;
+    let distance = |i: usize| (differences[i] - center).abs();
+    let median = median_of_many(n, distance, &check)?;
     let mut scale = MAD_TO_SIGMA * median;
-    // Without the tails the median is a little less: those values are looked for once.
-    let middle = Middle::of(differences, 0.9 * median..=median, &check)?;
+    // Without the tails the median is a little less: those values, and the tails that such medians cut off, are
+    // looked for once.
+    let middle = Middle::of(n, distance, 0.9 * median..=median, 0.9 * (3.0 * scale), &check)?;
     for _ in 0..20 {
         // What lies within are the smallest of all; the limit is taken anew from all of them each time.
-        let within = |piece: Range<usize>| differences[piece].iter().filter(|d| !exceeds(**d, 3.0 * scale)).count();
-        let count = pieces::map(n, &check, within)?.into_iter().sum();
+        let limit = 3.0 * scale;
+        let beyond = |d: f64| exceeds(d, limit);
+        let count = n - if limit >= middle.tail_from() {
+            middle.tail().iter().filter(|d| beyond(**d)).count()
+        } else {
+            pieces::map(n, &check, |piece| piece.filter(|i| beyond(distance(*i))).count())?.into_iter().sum()
+        };
         let next = match middle.median_of_smallest(count, &check)? {
             Some(next) => next,
-            None => median_of_smallest(n, count, |i| differences[i], &check)?,
+            None => median_of_smallest(n, count, distance, &check)?,
         };
         let next = MAD_TO_SIGMA * next;
         // Standing still is meant literally: the same subset has the same median, bit for bit.
@@ -183,12 +188,12 @@ fn four(x: &[f64], n: usize) -> [&[f64]; 4] {
 fn pooled(
     segments: &[Range<usize>],
     differences: impl Fn(&Range<usize>) -> Result<Vec<f64>, Stopped> + Sync,
-    figure: impl Fn(&mut [f64]) -> Result<f64, Stopped> + Sync,
+    figure: impl Fn(&[f64]) -> Result<f64, Stopped> + Sync,
 ) -> Result<Vec<f64>, Stopped> {
-    let mut each: Vec<Vec<f64>> = segments.par_iter().map(&differences).collect::<Result<_, _>>()?;
+    let each: Vec<Vec<f64>> = segments.par_iter().map(&differences).collect::<Result<_, _>>()?;
     let few = each.iter().any(|d| d.len() < ENOUGH);
-    let all = if few { figure(&mut each.concat())? } else { 0.0 };
-    each.par_iter_mut().map(|d| if d.len() < ENOUGH { Ok(all) } else { figure(d) }).collect()
+    let all = if few { figure(&each.concat())? } else { 0.0 };
+    each.par_iter().map(|d| if d.len() < ENOUGH { Ok(all) } else { figure(d) }).collect()
 }
 
 #[cfg(test)]

@@ -42,8 +42,8 @@ pub(super) struct Survivors<'a> {
     pub(super) residual: &'a [f64],
     /// Their positions in the block, ascending.
     pub(super) position: &'a [usize],
-    segment: &'a Segment<'a>,
-    zero: f64,
+    pub(super) segment: &'a Segment<'a>,
+    pub(super) zero: f64,
 }
 
 impl Survivors<'_> {

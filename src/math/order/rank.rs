@@ -21,7 +21,7 @@ pub(super) fn of_many<E: Send>(
     if n <= FEW {
         return Ok(of_few(&mut (0..n).map(value).collect::<Vec<f64>>(), ranks));
     }
-    let mut sample: Vec<f64> = (0..SAMPLE).map(|i| value(i * (n / SAMPLE))).collect();
+    let mut sample: Vec<f64> = sampled(n).map(value).collect();
     sample.sort_unstable_by(f64::total_cmp);
     let likely = ranks[1] / (n / SAMPLE);
     let near = |at: usize| sample[at.min(SAMPLE - 1)];
@@ -32,6 +32,16 @@ pub(super) fn of_many<E: Send>(
         // The sample misled, as it may where the values repeat themselves in its own step.
         _ => Ok([by_digits(n, ranks[0], &value, check)?, by_digits(n, ranks[1], &value, check)?]),
     }
+}
+
+/// Indices of [`SAMPLE`] of `n` values: one from each of as many stretches, each time at another place of it. What
+/// repeats itself, such as the rounding of even steps of time, has a period that even distances could meet.
+fn sampled(n: usize) -> impl Iterator<Item = usize> {
+    let stretch = n / SAMPLE;
+    // Multiples of the golden ratio modulo 1 are spread evenly and repeat nothing.
+    let fraction = |i: usize| (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32;
+    #[expect(clippy::cast_possible_truncation, reason = "less than the stretch")]
+    (0..SAMPLE).map(move |i| i * stretch + ((fraction(i) * stretch as u64) >> 32) as usize)
 }
 
 /// [`of_many`] of values that are there.
@@ -164,6 +174,8 @@ fn by_digits<E: Send>(
 
 #[cfg(test)]
 mod tests {
+    use std::collections::HashSet;
+
     use super::super::super::pieces::{certain, to_the_end};
     use super::*;
 
@@ -175,7 +187,8 @@ mod tests {
             let one = |_: usize| -1.5;
             let tiny = |i: usize| if i.is_multiple_of(3) { 0.0 } else { f64::from_bits((i % 5) as u64) };
             // The sample sees one value only, and the wrong one.
-            let misleading = |i: usize| if i.is_multiple_of((n / SAMPLE).max(1)) { 1e9 } else { spread(i) };
+            let seen: HashSet<usize> = if n < SAMPLE { HashSet::new() } else { sampled(n).collect() };
+            let misleading = |i: usize| if seen.contains(&i) { 1e9 } else { spread(i) };
             for value in [&spread as &(dyn Fn(usize) -> f64 + Sync), &ties, &one, &tiny, &misleading] {
                 let mut sorted: Vec<f64> = (0..n).map(value).collect();
                 sorted.sort_by(f64::total_cmp);
@@ -187,6 +200,24 @@ mod tests {
                     assert_eq!(by_digits, want, "{n} {upper}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn the_rounding_of_even_steps_does_not_mislead_the_sample() {
+        for n in [100_003, 1_000_000] {
+            let mut order: Vec<usize> = sampled(n).collect();
+            order.dedup();
+            assert_eq!((order.len(), order.is_sorted(), order[SAMPLE - 1] < n), (SAMPLE, true, true));
+            let step = |i: usize| (i + 1) as f64 * 0.1 - i as f64 * 0.1;
+            let mut sample: Vec<f64> = sampled(n).map(step).collect();
+            sample.sort_by(f64::total_cmp);
+            let mut all: Vec<f64> = (0..n).map(step).collect();
+            all.sort_by(f64::total_cmp);
+            let below = |v: f64| all.partition_point(|a| *a < v);
+            let up_to = |v: f64| all.partition_point(|a| *a <= v);
+            let (low, high) = (sample[SAMPLE / 2 - SAMPLE / 25], sample[SAMPLE / 2 + SAMPLE / 25]);
+            assert!(below(low) <= n / 2 && n / 2 < up_to(high), "{low} {high} {}", all[n / 2]);
         }
     }
 }
