@@ -40,7 +40,6 @@ fn sampled(n: usize) -> impl Iterator<Item = usize> {
     let stretch = n / SAMPLE;
     // Multiples of the golden ratio modulo 1 are spread evenly and repeat nothing.
     let fraction = |i: usize| (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32;
-    #[expect(clippy::cast_possible_truncation, reason = "less than the stretch")]
     (0..SAMPLE).map(move |i| i * stretch + ((fraction(i) * stretch as u64) >> 32) as usize)
 }
 
