@@ -64,13 +64,13 @@ fn judge(record: &Record, method: &dyn Method, stop: &Stop) -> Result<(), Stoppe
 const PASSES: [(&str, u64); 19] = [
     // The bound on zero and positions; fit, residuals, moments 2, flags, what is out and 3 lists without it, again and
     // again; trend, mean, tolerances, verdicts, bounds.
-    ("wright", 96),
-    ("trend-wright", 140),
-    ("chauvenet", 119),
-    ("romanovsky", 134),
-    ("grubbs", 111),
-    ("gesd", 124),
-    ("odd-even", 161),
+    ("wright", 70),
+    ("trend-wright", 114),
+    ("chauvenet", 94),
+    ("romanovsky", 108),
+    ("grubbs", 85),
+    ("gesd", 94),
+    ("odd-even", 135),
     // Slopes 2, rises, their sum, what is left, figures 1 to 2, the bound on zero, the pooled floor, the pass itself 4.
     ("mean-window", 15),
     ("median-window", 14),
@@ -112,8 +112,8 @@ fn cuts_and_scales_are_looked_for_in_pieces() {
     goes_over("cuts", 1, |stop| segments(&series, &settings, stop).map(|_| ()));
     // The largest value, and the smallest movement.
     goes_over("floor", 2, |stop| noise::auto_floor(&series, all, stop).map(|_| ()));
-    // Losses, differences, their median, what is left, its median, the middle, and what lies within until it stands still.
-    goes_over("differences", 11, |stop| noise::by_difference(&series, all, stop).map(|_| ()));
+    // Losses, differences, their median, that of the distances from it, middle and tail; and among what was picked.
+    goes_over("differences", 6, |stop| noise::by_difference(&series, all, stop).map(|_| ()));
     // The elimination twice, the mean, the deviation.
     goes_over("spline", 4, |stop| noise::by_spline(&series, all, stop).map(|_| ()));
 }
