@@ -16,6 +16,7 @@ mod comparison;
 mod consensus;
 mod experiments;
 mod inject;
+mod interrupted;
 mod methods;
 mod replay;
 mod set;
@@ -24,6 +25,7 @@ mod sweep;
 mod table;
 mod targets;
 
+pub use interrupted::end_tidily;
 pub use methods::markdown as methods_table;
 
 /// How a command ended.

@@ -10,7 +10,7 @@ use wildpoint::error::{Error, Result};
 use wildpoint::report::Summary;
 use wildpoint::session::{Analysed, Session, open_all};
 use wildpoint::stop::Stop;
-use wildpoint::track::{Source, Wanted, load, printable_lines};
+use wildpoint::track::{Source, Wanted, load, printable_lines, take_unfinished_away};
 use wildpoint::tui::config::{self, Config};
 use wildpoint::tui::files::is_session;
 use wildpoint::tui::journal::folder;
@@ -37,6 +37,7 @@ fn main() -> ExitCode {
             written.map_err(Error::io("write", "standard output"))
         }),
         Some(Task::Batch(command)) => {
+            batch::end_tidily();
             let mut out = std::io::BufWriter::new(stdout.lock());
             let ended = batch::run(command, &mut out);
             let flushed = out.flush().map_err(Error::io("write", "standard output"));
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
         None => match workbench(&cli) {
             Ok(Ended { signal: Some(signal), words }) => {
                 let _ = writeln!(std::io::stderr(), "wildpoint: {}", printable_lines(&words));
+                take_unfinished_away();
                 // As shells have it for programs that a signal ended.
                 return ExitCode::from(128 | u8::try_from(signal).unwrap_or(0));
             }

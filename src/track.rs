@@ -52,9 +52,9 @@ pub(crate) use names::is_id;
 pub(crate) use number::{Cell, Reading};
 pub use number::{number_text, without_signed_zero};
 pub use options::LoadOptions;
-pub use outputs::Outputs;
 #[cfg(test)]
 pub(crate) use outputs::faults;
+pub use outputs::{Outputs, take_unfinished_away};
 pub use preview::Preview;
 pub(crate) use printable::is_hidden;
 pub use printable::{printable, printable_json, printable_lines};

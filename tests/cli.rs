@@ -277,3 +277,50 @@ fn a_limit_on_the_size_of_files_is_told_and_leaves_the_old_file() {
     assert_eq!(folder.names(), ["c.csv", "demo.csv"]);
     assert_eq!(folder.text("c.csv"), "old");
 }
+
+#[cfg(unix)]
+#[test]
+fn a_signal_in_the_middle_of_writing_leaves_no_hidden_file() {
+    use std::os::unix::process::ExitStatusExt as _;
+    for (name, number) in [("INT", 2), ("TERM", 15), ("HUP", 1)] {
+        let folder = Folder::with_demo();
+        let rows: String = (0..400_000_u64).map(|i| format!("{i}.5,{}.25\n", i * 7919 % 977)).collect();
+        std::fs::write(folder.path("long.csv"), format!("t,y\n{rows}")).unwrap();
+        let mut clean = Command::new(env!("CARGO_BIN_EXE_wildpoint"));
+        // Packing takes long enough to be found at it.
+        let clean = clean.current_dir(folder.path("")).args(["clean", "long.csv", "-o", "long.clean.csv.gz"]);
+        let mut running = clean.stdout(Stdio::null()).spawn().unwrap();
+        while !folder.names().iter().any(|n| n.starts_with(".wildpoint-")) {
+            assert_eq!(running.try_wait().unwrap(), None, "it was never found writing");
+            std::thread::yield_now();
+        }
+        let kill = Command::new("kill").args(["-s", name, &running.id().to_string()]).status().unwrap();
+        assert!(kill.success());
+        assert_eq!(running.wait().unwrap().signal(), Some(number), "it ends by the signal");
+        assert_eq!(folder.names(), ["demo.csv", "long.csv"], "{name}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_that_is_to_be_ignored_is_ignored() {
+    let folder = Folder::with_demo();
+    let mut shell = Command::new("sh");
+    // As `nohup` does it, and a shell for what it runs in the background.
+    shell
+        .current_dir(folder.path(""))
+        .args(["-c", "trap '' HUP INT; exec \"$0\" stream --method five-point --time t --interval 1 --set sigma=1"]);
+    let shell = shell.arg(env!("CARGO_BIN_EXE_wildpoint")).stdin(Stdio::piped());
+    let mut running = shell.stdout(Stdio::piped()).spawn().unwrap();
+    let mut input = running.stdin.take().unwrap();
+    let mut output = BufReader::new(running.stdout.take().unwrap());
+    std::io::Write::write_all(&mut input, b"t,y\n0,1\n").unwrap();
+    // Something has come back: the signals are set by now.
+    output.read_line(&mut String::new()).unwrap();
+    for name in ["HUP", "INT"] {
+        Command::new("kill").args(["-s", name, &running.id().to_string()]).status().unwrap();
+    }
+    drop(input);
+    std::io::copy(&mut output, &mut std::io::sink()).unwrap();
+    assert!(running.wait().unwrap().success());
+}

@@ -9,8 +9,12 @@ use tempfile::NamedTempFile;
 
 use crate::error::{Error, Result};
 use faults::{Disk, point};
+use unfinished::Unfinished;
 
 pub(crate) mod faults;
+mod unfinished;
+
+pub use unfinished::take_unfinished_away;
 
 /// Several output files. Each is written beside its target under another name; [`Outputs::commit`] gives all of them
 /// their names. Dropped before that, they leave nothing.
@@ -27,6 +31,7 @@ struct Staged {
     folder: PathBuf,
     file: NamedTempFile,
     existed: bool,
+    known: Unfinished,
 }
 
 /// A target that has its new content, and what it takes to undo that.
@@ -55,6 +60,7 @@ impl Outputs {
         let existing = std::fs::symlink_metadata(&target).ok();
         self.permit(path, &target, existing.as_ref())?;
         let mut file = point().and_then(|()| hidden().tempfile_in(&folder)).map_err(Error::io("write to", &folder))?;
+        let known = Unfinished::new(file.path());
         if let Some(existing) = &existing {
             let permitted = point().and_then(|()| file.as_file().set_permissions(existing.permissions()));
             permitted.map_err(Error::io("write", path))?;
@@ -72,7 +78,7 @@ impl Outputs {
         buffer.flush().map_err(Error::io("write", path))?;
         drop(buffer);
         point().and_then(|()| file.as_file().sync_all()).map_err(Error::io("write", path))?;
-        self.staged.push(Staged { target, folder, file, existed: existing.is_some() });
+        self.staged.push(Staged { target, folder, file, existed: existing.is_some(), known });
         Ok(())
     }
 
@@ -82,6 +88,7 @@ impl Outputs {
     /// # Errors
     /// [`Error::Io`]; [`Error::Exists`] when a target has appeared meanwhile.
     pub fn commit(self) -> Result<()> {
+        let _not_interrupted = unfinished::commit();
         let mut renamed = Vec::new();
         let mut folders = Vec::new();
         for staged in self.staged {
@@ -144,7 +151,7 @@ impl Outputs {
 
 impl Staged {
     fn rename(self, force: bool) -> Result<Renamed> {
-        let Self { target, folder, file, existed } = self;
+        let Self { target, folder, file, existed, known: _known } = self;
         // A second name for the old content, where the file system has such; without it there is no way back.
         let old = if existed { link(&folder, &target).ok() } else { None };
         point().map_err(Error::io("write", &target))?;

@@ -1,0 +1,45 @@
+//! The hidden files that are being written now, so that a program that is ended in the middle leaves none behind, and
+//! no commit half done.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+static HIDDEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+static COMMIT: Mutex<()> = Mutex::new(());
+
+/// A hidden file, known as long as this lives.
+#[derive(Debug)]
+pub(super) struct Unfinished(PathBuf);
+
+impl Unfinished {
+    pub(super) fn new(path: &Path) -> Self {
+        hidden().insert(path.to_path_buf());
+        Self(path.to_path_buf())
+    }
+}
+
+impl Drop for Unfinished {
+    fn drop(&mut self) {
+        hidden().remove(&self.0);
+    }
+}
+
+/// Held while files get their names: the program does not end meanwhile.
+pub(super) fn commit() -> MutexGuard<'static, ()> {
+    COMMIT.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Takes the hidden files away, for a program that ends now: waits for the commit that is under way, and lets no other
+/// begin.
+pub fn take_unfinished_away() {
+    std::mem::forget(commit());
+    for path in hidden().iter() {
+        // As far as it goes: there is nobody left to tell.
+        let _ = std::fs::remove_file(path);
+    }
+}
+
+fn hidden() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    HIDDEN.lock().unwrap_or_else(PoisonError::into_inner)
+}
