@@ -282,7 +282,11 @@ fn a_limit_on_the_size_of_files_is_told_and_leaves_the_old_file() {
 #[test]
 fn a_signal_in_the_middle_of_writing_leaves_no_hidden_file() {
     use std::os::unix::process::ExitStatusExt as _;
-    for (name, number) in [("INT", 2), ("TERM", 15), ("HUP", 1)] {
+    // What ignores a signal, as a shell does in the background, hands that on: it would not end what runs here.
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| u64::from_str_radix(line.strip_prefix("SigIgn:")?.trim(), 16).ok());
+    let ends = |number: &i32| ignored.unwrap_or(0) >> (number - 1) & 1 == 0;
+    for (name, number) in [("TERM", 15), ("INT", 2), ("HUP", 1)].into_iter().filter(|(_, number)| ends(number)) {
         let folder = Folder::with_demo();
         let rows: String = (0..400_000_u64).map(|i| format!("{i}.5,{}.25\n", i * 7919 % 977)).collect();
         std::fs::write(folder.path("long.csv"), format!("t,y\n{rows}")).unwrap();
