@@ -43,15 +43,19 @@ fn main() -> ExitCode {
             let flushed = out.flush().map_err(Error::io("write", "standard output"));
             ended.and_then(|ending| flushed.map(|()| ending))
         }
-        None => match workbench(&cli) {
-            Ok(Ended { signal: Some(signal), words }) => {
-                let _ = writeln!(std::io::stderr(), "wildpoint: {}", printable_lines(&words));
-                take_unfinished_away();
-                // As shells have it for programs that a signal ended.
-                return ExitCode::from(128 | u8::try_from(signal).unwrap_or(0));
+        None => {
+            let ended = workbench(&cli);
+            // What is still being written when the workbench has ended, however it did, goes nowhere.
+            take_unfinished_away();
+            match ended {
+                Ok(Ended { signal: Some(signal), words }) => {
+                    let _ = writeln!(std::io::stderr(), "wildpoint: {}", printable_lines(&words));
+                    // As shells have it for programs that a signal ended.
+                    return ExitCode::from(128 | u8::try_from(signal).unwrap_or(0));
+                }
+                other => other.map(|_| Ending::Done),
             }
-            other => other.map(|_| Ending::Done),
-        },
+        }
     };
     match ended {
         Ok(Ending::Done) => ExitCode::SUCCESS,

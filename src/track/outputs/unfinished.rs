@@ -3,10 +3,11 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, RwLock, RwLockReadGuard};
 
 static HIDDEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-static COMMIT: Mutex<()> = Mutex::new(());
+/// Read by each commit, of which many may go on side by side, and written by the end of the program.
+static COMMITS: RwLock<()> = RwLock::new(());
 
 /// A hidden file, known as long as this lives.
 #[derive(Debug)]
@@ -26,14 +27,14 @@ impl Drop for Unfinished {
 }
 
 /// Held while files get their names: the program does not end meanwhile.
-pub(super) fn commit() -> MutexGuard<'static, ()> {
-    COMMIT.lock().unwrap_or_else(PoisonError::into_inner)
+pub(super) fn commit() -> RwLockReadGuard<'static, ()> {
+    COMMITS.read().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Takes the hidden files away, for a program that ends now: waits for the commit that is under way, and lets no other
+/// Takes the hidden files away, for a program that ends now: waits for the commits that are under way, and lets no other
 /// begin.
 pub fn take_unfinished_away() {
-    std::mem::forget(commit());
+    std::mem::forget(COMMITS.write().unwrap_or_else(PoisonError::into_inner));
     for path in hidden().iter() {
         // As far as it goes: there is nobody left to tell.
         let _ = std::fs::remove_file(path);
