@@ -282,6 +282,21 @@ pub struct Faults {
     pub infinite_cells: Fault,
 }
 
+impl Faults {
+    /// The kinds of which there are any, in words.
+    pub fn kinds(&self) -> impl Iterator<Item = (&'static str, &Fault)> {
+        let kinds = [
+            ("repeated times", &self.repeated_times),
+            ("backward times", &self.backward_times),
+            ("unreadable times", &self.unreadable_times),
+            ("unreadable cells", &self.unreadable_cells),
+            ("rows with fewer or more cells than columns", &self.ragged_rows),
+            ("numbers too large for a double", &self.infinite_cells),
+        ];
+        kinds.into_iter().filter(|(_, fault)| fault.count > 0)
+    }
+}
+
 /// One kind of fault.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Fault {

@@ -8,7 +8,7 @@ use crate::method::noise;
 use crate::method::shared::MAX_GAP;
 use crate::param::Value;
 use crate::stop::{Stop, Stopped};
-use crate::track::{Delimiter, Encoding, Fault, Faults, Series, Track, printable, without_signed_zero};
+use crate::track::{Delimiter, Encoding, Faults, Series, Track, printable, without_signed_zero};
 
 /// The facts of a file.
 #[derive(Debug, Clone, Serialize)]
@@ -249,16 +249,7 @@ pub(super) fn remarks(track: &Track) -> Vec<String> {
 }
 
 fn fault_facts(faults: &Faults) -> Vec<FaultFacts> {
-    let kinds: [(&'static str, &Fault); 6] = [
-        ("repeated times", &faults.repeated_times),
-        ("backward times", &faults.backward_times),
-        ("unreadable times", &faults.unreadable_times),
-        ("unreadable cells", &faults.unreadable_cells),
-        ("rows with fewer or more cells than columns", &faults.ragged_rows),
-        ("numbers too large for a double", &faults.infinite_cells),
-    ];
-    let facts = kinds.into_iter().filter(|(_, f)| f.count > 0);
-    facts.map(|(what, f)| FaultFacts { what, count: f.count, first: f.first.clone() }).collect()
+    faults.kinds().map(|(what, f)| FaultFacts { what, count: f.count, first: f.first.clone() }).collect()
 }
 
 /// How the text of a record is laid out, in words.

@@ -7,7 +7,7 @@ use super::is_session;
 use crate::error::Result;
 use crate::session;
 use crate::stop::Stop;
-use crate::track::{ColumnKind, Fault, LoadOptions, Preview, Series, Source, Track, Wanted, printable};
+use crate::track::{ColumnKind, LoadOptions, Preview, Series, Source, Track, Wanted, printable};
 
 /// How much of a record is read.
 const MOST: u64 = 1 << 20;
@@ -125,16 +125,7 @@ fn steps(track: &Track, channel: &crate::track::Channel) -> String {
 }
 
 pub(in crate::tui) fn faults(track: &Track) -> Vec<String> {
-    let f = &track.faults;
-    let kinds: [(&str, &Fault); 6] = [
-        ("repeated times", &f.repeated_times),
-        ("backward times", &f.backward_times),
-        ("unreadable times", &f.unreadable_times),
-        ("unreadable cells", &f.unreadable_cells),
-        ("rows with fewer or more cells", &f.ragged_rows),
-        ("numbers too large", &f.infinite_cells),
-    ];
-    let shown = kinds.into_iter().filter(|(_, fault)| fault.count > 0).map(|(what, fault)| {
+    let shown = track.faults.kinds().map(|(what, fault)| {
         let first =
             fault.first.first().map_or(String::new(), |(line, text)| format!(" (line {line}: {})", printable(text)));
         format!("{} {what}{first}", fault.count)
