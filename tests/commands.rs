@@ -163,6 +163,21 @@ fn a_command_that_is_spelt_out_goes_before_every_action() {
 }
 
 #[test]
+fn only_the_keys_it_names_answer_the_question_before_quitting() {
+    let mut bench = Bench::new();
+    bench.keys("aq");
+    for modifiers in [KeyModifiers::CONTROL, KeyModifiers::ALT] {
+        for letter in ['d', 'w'] {
+            bench.send(Message::Key(KeyEvent::new(KeyCode::Char(letter), modifiers)));
+        }
+    }
+    bench.keys("synq\r");
+    assert_eq!(bench.asked, []);
+    bench.keys("d");
+    assert_eq!(bench.asked, [Effect::Quit]);
+}
+
+#[test]
 fn parameters_are_set_with_a_blank_or_a_sign_and_wrong_ones_stay_in_the_prompt() {
     let mut bench = Bench::new();
     bench.keys(":set k 4.5\r");

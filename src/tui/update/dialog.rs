@@ -6,7 +6,7 @@ use tui_input::{Input, InputRequest};
 use super::super::files::{News, Request, Task};
 use super::super::message::Effect;
 use super::super::model::{Dialog, Model, Over, Overlay, PromptKind, Tone};
-use super::files;
+use super::{files, overlay};
 
 mod browser;
 mod export;
@@ -148,8 +148,8 @@ pub(super) fn ask_over(model: &mut Model, path: std::path::PathBuf, again: Effec
 }
 
 fn overwrite(model: &mut Model, over: Over, key: KeyEvent) -> Vec<Effect> {
-    match key.code {
-        KeyCode::Char('o') => {
+    match overlay::answer(key) {
+        Some('o') => {
             model.say(Tone::Done, "writing …");
             vec![over.again]
         }
@@ -158,12 +158,12 @@ fn overwrite(model: &mut Model, over: Over, key: KeyEvent) -> Vec<Effect> {
 }
 
 fn unsaved(model: &mut Model, request: Request, key: KeyEvent) -> Vec<Effect> {
-    match key.code {
-        KeyCode::Char('w' | 's') => {
+    match overlay::answer(key) {
+        Some('w') => {
             model.then_open = Some(request);
             files::save(model, None, false, false)
         }
-        KeyCode::Char('d') => opening::begin(model, request, None),
+        Some('d') => opening::begin(model, request, None),
         _ => keep(model, Dialog::Unsaved(request)),
     }
 }

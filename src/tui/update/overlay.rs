@@ -134,6 +134,13 @@ fn control(key: KeyEvent) -> bool {
     key.modifiers.contains(KeyModifiers::CONTROL)
 }
 
+/// The letter that answers a question. With Ctrl or Alt it is another key and answers nothing: Ctrl-D, which ends many
+/// programs, must not drop work.
+pub(super) fn answer(key: KeyEvent) -> Option<char> {
+    let plain = !key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT);
+    key.code.as_char().filter(|_| plain)
+}
+
 fn help(mut filter: Input, from: usize, key: KeyEvent) -> Overlay {
     let from = match key.code {
         KeyCode::Enter => return Overlay::None,
@@ -243,9 +250,9 @@ fn entered(model: &mut Model, prompt: &mut Prompt) -> Result<Option<Vec<Effect>>
 }
 
 fn confirm(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
-    match key.code {
-        KeyCode::Char('w' | 's') => files::save(model, None, false, true),
-        KeyCode::Char('d') => vec![Effect::Quit],
+    match answer(key) {
+        Some('w') => files::save(model, None, false, true),
+        Some('d') => vec![Effect::Quit],
         _ => {
             model.overlay = Overlay::ConfirmQuit;
             Vec::new()

@@ -7,6 +7,7 @@ use super::super::journal::Found;
 use super::super::message::{Effect, Fate};
 use super::super::model::{Model, Overlay, Tone};
 use super::super::words::counted;
+use super::overlay;
 use crate::session::journal;
 
 /// A key while `offered` are offered: the first is asked about.
@@ -15,14 +16,14 @@ pub(super) fn key(model: &mut Model, mut offered: Vec<Found>, key: KeyEvent) -> 
         return Vec::new();
     }
     let control_c = key.code == KeyCode::Char('c') && key.modifiers.contains(KeyModifiers::CONTROL);
-    match key.code {
-        KeyCode::Char('r') if offered[0].missing.is_none() => {
+    match overlay::answer(key) {
+        Some('r') if offered[0].missing.is_none() => {
             let first = offered.remove(0);
             let mut effects = left(&offered);
             effects.extend(take(model, first));
             effects
         }
-        KeyCode::Char('d') => {
+        Some('d') => {
             let first = offered.remove(0);
             model.say(Tone::Done, format!("dropped {} of {}", counted(first.changes, "change"), first.when));
             if !offered.is_empty() {
