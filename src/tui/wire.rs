@@ -10,6 +10,8 @@ use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Size};
 
 mod encode;
+mod moves;
+mod order;
 mod pen;
 mod shown;
 

@@ -11,7 +11,7 @@ use crate::tui::theme::Theme;
 pub(super) struct Bar {
     /// Its part of the height, from 0 to 1; none when there is nothing to show.
     pub(super) share: Option<f64>,
-    /// Does it stand for something that is flagged?
+    /// Does it stand for something that is flagged? Where there is a line, the part of it that reaches the line says so.
     pub(super) over: bool,
     /// Is it cut at the top?
     pub(super) beyond: bool,
@@ -44,8 +44,9 @@ impl Bars<'_> {
         for row in 0..height {
             let below = u32::from(height - 1 - row) * 8;
             let fill = eighths.saturating_sub(below).min(8) as u8;
-            let glyph = if bar.over && self.glyphs == Glyphs::Ascii { '#' } else { self.glyphs.bar(fill) };
-            let style = if bar.over { self.theme.over } else { self.theme.dim };
+            let over = bar.over && self.line.is_none_or(|line| row <= line);
+            let glyph = if over && self.glyphs == Glyphs::Ascii { '#' } else { self.glyphs.bar(fill) };
+            let style = if over { self.theme.over } else { self.theme.dim };
             let (glyph, style) = match fill {
                 _ if bar.beyond && row == 0 => (self.glyphs.beyond(true, false), self.theme.over),
                 0 if Some(row) == self.line && is_dotted(column) => (self.glyphs.threshold(), self.theme.threshold),

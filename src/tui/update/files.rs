@@ -124,6 +124,7 @@ fn again(what: &Written, path: &Path) -> Effect {
 
 /// Takes a result in.
 pub(super) fn arrange(model: &mut Model, plan: usize, mut drawn: Drawn) {
+    let in_sight = if plan == model.shown { queue::in_sight(model) } else { Vec::new() };
     let state = &mut model.channels[plan];
     state.flags = std::mem::take(&mut drawn.arranged);
     state.residual_top = ResidualPlot::top_after(state.residual_top, drawn.threshold);
@@ -137,4 +138,5 @@ pub(super) fn arrange(model: &mut Model, plan: usize, mut drawn: Drawn) {
         model.toast = None;
     }
     queue::arrange(model, plan);
+    queue::stay(model, &in_sight);
 }

@@ -96,11 +96,46 @@ pub(in crate::tui) fn window(model: &Model, rows: usize) -> (Range<usize>, usize
 
 /// Remembers which flag stands in the first row of the panel.
 pub(super) fn keep_in_sight(model: &mut Model) {
-    let Some(area) = layout::arrange(model).and_then(|areas| areas.queue) else { return };
-    let (shown, _) = window(model, layout::queue_rows(area));
+    let Some(rows) = panel_rows(model) else { return };
+    let (shown, _) = window(model, rows);
     if let Some(&top) = model.state().queue.get(shown.start) {
         model.state_mut().top = top;
     }
+}
+
+/// The flags that the panel shows, row by row; none where it is not on the screen.
+pub(super) fn in_sight(model: &Model) -> Vec<u32> {
+    let queue = &model.state().queue;
+    panel_rows(model).and_then(|rows| queue.get(window(model, rows).0)).unwrap_or_default().to_vec()
+}
+
+/// After flags have come and gone: has the panel begin where most of the flags that `before` were in sight stay in
+/// their rows.
+pub(super) fn stay(model: &mut Model, before: &[u32]) {
+    // Only by time do the others keep their order.
+    let Some(rows) = panel_rows(model).filter(|_| model.review.sort == Sort::Time) else { return };
+    let current = window(model, rows).1;
+    let state = model.state();
+    if let Some(start) = steadiest(before, &state.queue, rows, state.top, current) {
+        model.state_mut().top = model.state().queue[start];
+    }
+}
+
+fn panel_rows(model: &Model) -> Option<usize> {
+    layout::arrange(model).and_then(|areas| areas.queue).map(layout::queue_rows)
+}
+
+/// The start of the window of `rows` flags that has most flags of `before` in their rows and `current` in any; among
+/// equals the one that keeps `top` in the first row.
+fn steadiest(before: &[u32], queue: &[u32], rows: usize, top: u32, current: usize) -> Option<usize> {
+    let starts: Vec<usize> = before
+        .iter()
+        .enumerate()
+        .filter_map(|(row, position)| queue.binary_search(position).ok()?.checked_sub(row))
+        .filter(|start| *start <= queue.len().saturating_sub(rows) && (*start..*start + rows).contains(&current))
+        .collect();
+    let same = |start: usize| starts.iter().filter(|s| **s == start).count();
+    starts.iter().copied().max_by_key(|start| (same(*start), queue[*start] == top))
 }
 
 #[cfg(test)]
@@ -115,5 +150,30 @@ mod tests {
         let found = groups(&marks, &[0..8, 8..20]);
         let lengths: Vec<(u32, u32)> = found.iter().map(|g| (g.start, g.length)).collect();
         assert_eq!(lengths, [(2, 2), (4, 1), (6, 2), (8, 2)]);
+    }
+
+    #[test]
+    fn most_rows_stay_where_they_are_when_flags_come_and_go() {
+        let queue = |gone: &[u32], new: &[u32]| {
+            let kept = (0..40).map(|i| i * 10).filter(|i| !gone.contains(i));
+            let mut queue: Vec<u32> = kept.chain(new.to_vec()).collect();
+            queue.sort_unstable();
+            queue
+        };
+        let before = &queue(&[], &[])[10..20];
+        let start = |queue: &[u32], current| steadiest(before, queue, 10, 100, current);
+        // One comes in the second row: nine stay if it pushes the first one out. One comes in the last row but one.
+        assert_eq!(start(&queue(&[], &[105]), 15), Some(11));
+        assert_eq!(start(&queue(&[], &[175]), 15), Some(10));
+        // Those out of sight move nothing.
+        assert_eq!(start(&queue(&[], &[5, 15]), 15), Some(12));
+        // The current one stays in sight.
+        assert_eq!(start(&queue(&[], &[105]), 10), Some(10));
+        // One goes.
+        assert_eq!(start(&queue(&[120], &[]), 15), Some(9));
+        assert_eq!(start(&queue(&[180], &[]), 15), Some(10));
+        // There is nothing to begin with, or nothing left.
+        assert_eq!(steadiest(&[], &queue(&[], &[]), 10, 0, 3), None);
+        assert_eq!(steadiest(before, &[], 10, 0, 0), None);
     }
 }

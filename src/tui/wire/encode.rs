@@ -3,29 +3,35 @@
 use ratatui::buffer::{Buffer, Cell};
 use unicode_width::UnicodeWidthStr;
 
+use super::moves::{At, step};
+use super::order::orders;
 use super::pen::{PLAIN, Pen, change};
 use super::shown::Shown;
 
 /// A symbol to be put at a column and a row, both from 0.
 #[derive(Clone, Copy)]
-struct Put<'a> {
-    x: u16,
-    y: u16,
-    symbol: &'a str,
-    pen: Pen,
+pub(super) struct Put<'a> {
+    pub(super) x: u16,
+    pub(super) y: u16,
+    pub(super) symbol: &'a str,
+    pub(super) pen: Pen,
 }
 
-/// Cells up to which what lies between is written again: a move costs as much.
-const BRIDGE: u16 = 3;
+/// Erases a row from the cursor on: shorter than so many blanks, and nothing else is to the right of them.
+const ERASE: &str = "\x1b[K";
+const ERASED_FROM: u16 = 4;
 
-/// Where the cursor is.
-#[derive(Clone, Copy)]
-struct At {
-    x: u16,
-    y: u16,
-    /// False when a symbol was put since the last absolute move that is two columns wide in some terminals: no other
-    /// row is reached from there.
-    sure: bool,
+impl Put<'_> {
+    /// Where the cursor is after the symbol, when it was put with so much doubt.
+    pub(super) fn end(&self, doubt: u16) -> At {
+        let columns = |width: usize| u16::try_from(width).unwrap_or(1).max(1);
+        let (width, ambiguous) = match self.symbol.len() {
+            1 => (1, 1),
+            _ => (columns(self.symbol.width()), columns(self.symbol.width_cjk())),
+        };
+        let doubt = doubt.saturating_add(ambiguous.saturating_sub(width));
+        At { x: self.x.saturating_add(width), y: self.y, doubt }
+    }
 }
 
 /// Takes the foreground away from blanks, on which it cannot be seen: one that only lost its style does not go over
@@ -39,25 +45,14 @@ pub(in crate::tui) fn plain_blanks(buffer: &mut Buffer) {
 }
 
 /// The bytes that put cells (column, row, both from 0; in the order of rows) on a terminal whose attributes are reset,
-/// and leave them reset: row by row, or look by look where that is shorter, since a few changes here and there take more
-/// attributes than moves. What is `shown` there is brought up to date.
+/// and leave them reset: in that of several orders which is shortest. What is `shown` there is brought up to date.
 pub(super) fn encoded<'a>(content: impl Iterator<Item = (u16, u16, &'a Cell)>, shown: &mut Shown) -> String {
     let mut puts: Vec<Put<'a>> =
         content.map(|(x, y, cell)| Put { x, y, symbol: cell.symbol(), pen: Pen::of(cell) }).collect();
     blend_blanks(&mut puts);
     // Before anything is encoded: what lies between two puts is written again as it will be in the end.
     puts.iter().for_each(|put| shown.put(put.x, put.y, put.symbol, put.pen));
-    let by_row = in_order(&puts, shown);
-    let mut looks: Vec<Pen> = Vec::new();
-    for put in &puts {
-        if !looks.contains(&put.pen) {
-            looks.push(put.pen);
-        }
-    }
-    // Plain cells first: they need no attributes at all.
-    puts.sort_by_key(|put| if put.pen == PLAIN { None } else { looks.iter().position(|look| *look == put.pen) });
-    let by_look = in_order(&puts, shown);
-    if by_look.len() < by_row.len() { by_look } else { by_row }
+    orders(&puts, shown).into_iter().map(|puts| in_order(&puts, shown)).min_by_key(String::len).unwrap_or_default()
 }
 
 /// Gives a blank beside another cell the look of that one, where it looks the same.
@@ -75,73 +70,30 @@ fn in_order(puts: &[Put<'_>], shown: &Shown) -> String {
     let mut out = String::new();
     let mut pen = PLAIN;
     let mut at: Option<At> = None;
-    for &Put { x, y, symbol, pen: next } in puts {
-        let near = at.filter(|at| at.y == y && (at.x..=at.x + BRIDGE).contains(&x));
-        let across = |pen: Pen| near.and_then(|at| shown.text(at.x..x, y, pen).map(|text| (text, at.sure)));
-        let sure = match across(pen) {
-            Some((text, sure)) => {
-                out.push_str(&text);
-                sure
-            }
-            None => step(&mut out, at, (x, y), shown.columns()),
-        };
-        if next != pen {
-            change(&mut out, pen, next);
-            pen = next;
+    // The column of each row from which it has been erased.
+    let mut erased: Vec<(u16, u16)> = Vec::new();
+    for put in puts {
+        if erased.iter().any(|(y, from)| put.y == *y && put.x >= *from) {
+            continue;
         }
-        out.push_str(symbol);
-        let width = u16::try_from(symbol.width()).unwrap_or(1).max(1);
-        at = Some(At { x: x.saturating_add(width), y, sure: sure && symbol.is_ascii() });
+        let doubt = step(&mut out, at, (put.x, put.y), pen, shown);
+        if put.symbol == " " && pen.erases() && shown.blank_from(put.x, put.y) >= ERASED_FROM {
+            out.push_str(ERASE);
+            at = Some(At { x: put.x, y: put.y, doubt });
+            erased.push((put.y, put.x));
+            continue;
+        }
+        if put.pen != pen {
+            change(&mut out, pen, put.pen);
+            pen = put.pen;
+        }
+        out.push_str(put.symbol);
+        at = Some(put.end(doubt));
     }
     if pen != PLAIN {
         out.push_str("\x1b[0m");
     }
     out
-}
-
-/// Moves the cursor the shortest way; gives whether it is certain then where it is. At the right edge a terminal may
-/// not be where it seems: from there, and from where it is not certain, other rows are not reached by steps.
-fn step(out: &mut String, from: Option<At>, (x, y): (u16, u16), columns: u16) -> bool {
-    let line = u32::from(y) + 1;
-    let absolute = if x == 0 { format!("\x1b[{line}H") } else { format!("\x1b[{line};{}H", u32::from(x) + 1) };
-    let steps = from.and_then(|at| {
-        let certain = at.sure && at.x < columns;
-        let forward = at.y == y && at.x < x;
-        (forward || certain).then(|| (format!("{}{}", rows(at.y, y), sideways(at.x, x)), at.sure))
-    });
-    match steps {
-        Some((steps, sure)) if steps.len() < absolute.len() => {
-            out.push_str(&steps);
-            sure
-        }
-        _ => {
-            out.push_str(&absolute);
-            true
-        }
-    }
-}
-
-/// Up or down in the same column. A line feed is that alone in raw mode, and there is a row below to go to.
-fn rows(from: u16, to: u16) -> String {
-    match (to.saturating_sub(from), from.saturating_sub(to)) {
-        (0, 0) => String::new(),
-        (down @ 1..=3, _) => "\n".repeat(usize::from(down)),
-        (0, 1) => "\x1b[A".to_owned(),
-        (0, up) => format!("\x1b[{up}A"),
-        (down, _) => format!("\x1b[{down}B"),
-    }
-}
-
-/// Left or right in the same row.
-fn sideways(from: u16, to: u16) -> String {
-    match (to.saturating_sub(from), from.saturating_sub(to)) {
-        (0, 0) => String::new(),
-        _ if to == 0 => "\r".to_owned(),
-        (1, _) => "\x1b[C".to_owned(),
-        (0, left @ 1..=3) => "\x08".repeat(usize::from(left)),
-        (0, left) => format!("\x1b[{left}D"),
-        (right, _) => format!("\x1b[{right}C"),
-    }
 }
 
 #[cfg(test)]
@@ -261,13 +213,53 @@ mod tests {
             encoded(Buffer::empty(AREA).diff(buffer).into_iter(), &mut Shown::of(AREA.width, AREA.height))
         };
         assert_eq!(encode(&buffer), "\x1b[2;21H12\n\x08\x0813\n\rx");
-        // After a glyph that some terminals draw two columns wide, and at the right edge, the way is absolute.
+        // After a glyph that some terminals draw two columns wide the column is absolute, at the right edge all is.
         let mut buffer = Buffer::empty(AREA);
         buffer.set_string(20, 1, "●", Style::new());
         buffer.set_string(20, 2, "13", Style::new());
         buffer.set_string(29, 3, "1", Style::new());
         buffer.set_string(29, 4, "2", Style::new());
-        assert_eq!(encode(&buffer), "\x1b[2;21H●\x1b[3;21H13\n\x1b[7C1\x1b[5;30H2");
+        assert_eq!(encode(&buffer), "\x1b[2;21H●\n\x1b[21G13\n\x1b[7C1\x1b[5;30H2");
+    }
+
+    #[test]
+    fn columns_of_cells_far_apart_are_put_one_after_the_other() {
+        let red = Style::new().fg(Color::Red);
+        let mut buffer = Buffer::empty(AREA);
+        for (y, style) in [(1, Style::new()), (2, red), (3, Style::new())] {
+            buffer.set_string(2, y, "a", style);
+            buffer.set_string(20, y, "⣿", style);
+        }
+        let bytes = encoded(Buffer::empty(AREA).diff(&buffer).into_iter(), &mut Shown::of(AREA.width, AREA.height));
+        assert_eq!(bytes, "\x1b[2;3Ha\n\n\x08a\x1b[17C⣿\x1b[2A\x08⣿\n\x08\x1b[31m⣿\x1b[3Ga\x1b[0m");
+    }
+
+    #[test]
+    fn the_end_of_a_row_is_erased_where_that_is_shorter_than_blanks() {
+        let mut before = Buffer::empty(AREA);
+        let mut after = Buffer::empty(AREA);
+        for (y, old, new) in
+            [(0, "a long message", "a"), (1, "abc", ""), (2, "all but the end   .", "                  .")]
+        {
+            before.set_string(0, y, old, Style::new().fg(Color::Red));
+            after.set_string(0, y, new, Style::new().fg(Color::Red));
+        }
+        for buffer in [&mut before, &mut after] {
+            plain_blanks(buffer);
+        }
+        let mut shown = Shown::of(AREA.width, AREA.height);
+        encoded(Buffer::empty(AREA).diff(&before).into_iter(), &mut shown);
+        let bytes = encoded(before.diff(&after).into_iter(), &mut shown);
+        assert_eq!(bytes, "\x1b[1;3H\x1b[K\n\r\x1b[K\n               ");
+        // Not with a pen that would fill the row.
+        let mut filled = Buffer::empty(AREA);
+        filled.set_string(0, 3, "abc", Style::new().bg(Color::Red));
+        before.set_string(4, 3, "a message", Style::new());
+        let mut shown = Shown::of(AREA.width, AREA.height);
+        encoded(Buffer::empty(AREA).diff(&before).into_iter(), &mut shown);
+        let bytes = encoded(before.diff(&filled).into_iter(), &mut shown);
+        assert!(bytes.contains("\x1b[41mabc"), "{bytes:?}");
+        assert!(bytes.contains("\x1b[K") && !bytes.contains("\x1b[41mabc\x1b[K"), "{bytes:?}");
     }
 
     #[test]

@@ -27,6 +27,11 @@ impl Pen {
     pub(super) fn hides_foreground(self) -> bool {
         !self.modifier.intersects(SEEN_ON_BLANKS)
     }
+
+    /// True when what is erased with this pen is blank and plain: terminals fill it with the background at hand.
+    pub(super) fn erases(self) -> bool {
+        self.bg == PLAIN.bg && !self.modifier.contains(Modifier::REVERSED)
+    }
 }
 
 /// What shows on a blank, too.

@@ -52,6 +52,14 @@ impl Shown {
         }
     }
 
+    /// How many cells there are from a column to the end of its row, when all of them are blank and look plain; else 0.
+    pub(super) fn blank_from(&self, x: u16, y: u16) -> u16 {
+        let row = usize::from(y) * usize::from(self.columns);
+        let rest = self.cells.get(row + usize::from(x)..row + usize::from(self.columns)).unwrap_or_default();
+        let blank = |(byte, pen): (u8, Pen)| byte == b' ' && pen.bg == PLAIN.bg && pen.hides_foreground();
+        if rest.iter().all(|cell| cell.is_some_and(blank)) { rest.len() as u16 } else { 0 }
+    }
+
     /// The text in some columns of a row, where it can be written again with this pen and look the same.
     pub(super) fn text(&self, columns: Range<u16>, y: u16, pen: Pen) -> Option<String> {
         let same = |byte: u8, own: Pen| {
