@@ -7,6 +7,8 @@
 
 #[path = "screens/matrix.rs"]
 mod matrix;
+#[path = "screens/queue.rs"]
+mod queue;
 mod workbench;
 
 use insta::{assert_debug_snapshot, assert_snapshot};

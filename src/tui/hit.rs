@@ -8,7 +8,7 @@ use super::layout::{self, trace_parts};
 use super::model::Model;
 use super::picture::Picture;
 use super::plot::TracePlot;
-use super::update::queue::window;
+use super::update::queue::listed;
 use super::view::overlay;
 use super::view::parameters::Rows;
 
@@ -30,7 +30,7 @@ pub(super) enum Spot {
     /// that is nearest in time to what the cell points at.
     Second(f64, Option<usize>),
     /// The queue; with the index of the flag.
-    Queue(Option<usize>),
+    Queue(Option<u32>),
     /// The parameters; with the index of the knob.
     Parameters(Option<usize>),
     /// The card.
@@ -153,10 +153,8 @@ fn below_heading(area: Rect) -> Rect {
 
 fn queue(model: &Model, area: Rect, row: u16) -> Spot {
     let rows = layout::queue_rows(area);
-    let (shown, _) = window(model, rows);
     let first = area.bottom() - u16::try_from(rows).unwrap_or(0).min(area.height);
-    let at = row.checked_sub(first).map(|r| shown.start + usize::from(r));
-    Spot::Queue(at.filter(|i| shown.contains(i)))
+    Spot::Queue(row.checked_sub(first).and_then(|at| listed(model, rows).get(usize::from(at)).copied()))
 }
 
 fn parameters(model: &Model, area: Rect, row: u16) -> Spot {

@@ -30,6 +30,10 @@ pub struct ChannelState {
     pub groups: Vec<Group>,
     /// Position of the flag in the first row of the queue's panel.
     pub top: u32,
+    /// Flags that a knob has taken away and that keep their rows there, ascending.
+    pub gone: Vec<u32>,
+    /// The position of the cursor when they went.
+    pub gone_at: usize,
     /// The ratio at the upper edge of the residual's picture, where it has been drawn.
     pub residual_top: f64,
     /// The counts along the multiplier, for the setup they were found for.
@@ -110,6 +114,8 @@ impl ChannelState {
             queue: Vec::new(),
             groups: Vec::new(),
             top: 0,
+            gone: Vec::new(),
+            gone_at: 0,
             residual_top: 0.0,
             advice: None,
             sweep_asked: false,

@@ -11,7 +11,7 @@ use crate::tui::theme::Theme;
 pub(super) struct Bar {
     /// Its part of the height, from 0 to 1; none when there is nothing to show.
     pub(super) share: Option<f64>,
-    /// Does it stand for something that is flagged? Where there is a line, the part of it that reaches the line says so.
+    /// Does it stand for something that is flagged? Beside a line its tip says so, which does not change with the line.
     pub(super) over: bool,
     /// Is it cut at the top?
     pub(super) beyond: bool,
@@ -41,10 +41,11 @@ impl Bars<'_> {
         // In eighths of a cell; a bar of nothing still shows that there was something.
         let eighths =
             bar.share.map_or(0.0, |share| (share.clamp(0.0, 1.0) * f64::from(height) * 8.0).ceil().max(1.0)) as u32;
+        let tip = u32::from(height).saturating_sub(eighths.div_ceil(8));
         for row in 0..height {
             let below = u32::from(height - 1 - row) * 8;
             let fill = eighths.saturating_sub(below).min(8) as u8;
-            let over = bar.over && self.line.is_none_or(|line| row <= line);
+            let over = bar.over && (self.line.is_none() || u32::from(row) == tip);
             let glyph = if over && self.glyphs == Glyphs::Ascii { '#' } else { self.glyphs.bar(fill) };
             let style = if over { self.theme.over } else { self.theme.dim };
             let (glyph, style) = match fill {

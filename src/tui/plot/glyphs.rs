@@ -46,6 +46,12 @@ impl Glyphs {
         }
     }
 
+    /// The marker of what has just ceased to be a flag.
+    #[must_use]
+    pub fn gone(self) -> char {
+        if self == Self::Unicode { '·' } else { '.' }
+    }
+
     /// The marker of a flag on the cell of the cursor: ASCII letters go to upper case, for terminals that cannot
     /// show reverse.
     #[must_use]

@@ -124,7 +124,9 @@ fn again(what: &Written, path: &Path) -> Effect {
 
 /// Takes a result in.
 pub(super) fn arrange(model: &mut Model, plan: usize, mut drawn: Drawn) {
-    let in_sight = if plan == model.shown { queue::in_sight(model) } else { Vec::new() };
+    let before = model.channels[plan].drawn.as_ref().map(|d| &d.outcome.detection);
+    let judged = before.is_some_and(|before| !Arc::ptr_eq(before, &drawn.outcome.detection));
+    let in_sight = if judged && plan == model.shown { queue::in_sight(model) } else { Vec::new() };
     let state = &mut model.channels[plan];
     state.flags = std::mem::take(&mut drawn.arranged);
     state.residual_top = ResidualPlot::top_after(state.residual_top, drawn.threshold);

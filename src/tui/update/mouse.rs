@@ -84,16 +84,11 @@ fn press(model: &mut Model, under: Spot, cell: (u16, u16)) -> Vec<Effect> {
                 navigate::go_to(model, position);
             }
         }
-        Spot::Queue(Some(index)) => {
-            let position = model.state().queue.get(index).map(|p| *p as usize);
-            // The second click of two finds the flag already there.
-            if position == Some(model.state().cursor) {
-                return perform(model, Action::ZoomFlag);
-            }
-            if let Some(position) = position {
-                navigate::go_to(model, position);
-            }
+        // The second click of two finds the flag already there.
+        Spot::Queue(Some(position)) if position as usize == model.state().cursor => {
+            return perform(model, Action::ZoomFlag);
         }
+        Spot::Queue(Some(position)) => navigate::go_to(model, position as usize),
         Spot::Parameters(Some(index)) if index == model.state().knob => return perform(model, Action::TypeValue),
         Spot::Parameters(Some(index)) => model.state_mut().knob = index,
         Spot::Second(_, None) | Spot::Queue(None) | Spot::Parameters(None) | Spot::Card | Spot::Elsewhere => {}

@@ -34,6 +34,7 @@ pub(super) fn arrange(model: &mut Model, plan: usize) {
     let state = &mut model.channels[plan];
     state.queue = items.into_iter().map(|item| item.start).collect();
     state.groups = groups;
+    state.gone.clear();
 }
 
 /// Adjacent marks within a segment; suspects are a class of their own.
@@ -68,11 +69,34 @@ fn urgency(drawn: &Drawn, item: Group) -> u8 {
     item.positions().filter_map(|i| drawn.outcome.mark(i)).map(rank).min().unwrap_or(3)
 }
 
-/// The part of the queue that a panel of `rows` rows shows, and the place of the current flag in the queue (of the
-/// next one, where the cursor is on none). Rows stay where they are as long as the current flag is among them: a flag
-/// that comes or goes above them moves nothing.
+/// The flags that a panel of `rows` rows shows, row by row: of runs the first sample. Rows stay where they are as long
+/// as the current flag is among them, and among them are those that a knob has just taken away.
 #[must_use]
-pub(in crate::tui) fn window(model: &Model, rows: usize) -> (Range<usize>, usize) {
+pub(in crate::tui) fn listed(model: &Model, rows: usize) -> Vec<u32> {
+    let state = model.state();
+    let (shown, current) = window(model, rows);
+    let flags = || state.queue[shown.clone()].to_vec();
+    if state.gone.is_empty() {
+        return flags();
+    }
+    let near = nearby(&state.queue, &state.gone, state.top..state.top, rows);
+    let from = near.partition_point(|p| *p < state.top).min(near.len().saturating_sub(rows));
+    let list = near[from..near.len().min(from + rows)].to_vec();
+    let in_sight = |position: u32| list.binary_search(&position).is_ok();
+    let cursor = u32::try_from(state.cursor).unwrap_or(u32::MAX);
+    if in_sight(cursor) || state.queue.get(current).is_some_and(|p| in_sight(*p)) { list } else { flags() }
+}
+
+/// True when there are flags above those of the panel.
+#[must_use]
+pub(in crate::tui) fn goes_on_above(model: &Model, listed: &[u32]) -> bool {
+    let (all, shown) = (model.state().queue.first(), listed.first());
+    if model.review.sort == Sort::Time { all < shown } else { all != shown }
+}
+
+/// The part of the queue that a panel of `rows` rows has room for, and the place of the current flag in the queue (of
+/// the next one, where the cursor is on none).
+fn window(model: &Model, rows: usize) -> (Range<usize>, usize) {
     let queue = &model.state().queue;
     let cursor = model.state().cursor;
     let n = queue.len();
@@ -94,30 +118,45 @@ pub(in crate::tui) fn window(model: &Model, rows: usize) -> (Range<usize>, usize
     (from..n.min(from + rows), current)
 }
 
-/// Remembers which flag stands in the first row of the panel.
+/// Remembers which flag stands in the first row of the panel. What is gone leaves it when the cursor moves on.
 pub(super) fn keep_in_sight(model: &mut Model) {
     let Some(rows) = panel_rows(model) else { return };
-    let (shown, _) = window(model, rows);
-    if let Some(&top) = model.state().queue.get(shown.start) {
+    let state = model.state_mut();
+    if state.gone_at != state.cursor {
+        state.gone.clear();
+    }
+    if let Some(&top) = listed(model, rows).first() {
         model.state_mut().top = top;
     }
 }
 
-/// The flags that the panel shows, row by row; none where it is not on the screen.
+/// The flags that the panel shows; none where it is not on the screen.
 pub(super) fn in_sight(model: &Model) -> Vec<u32> {
-    let queue = &model.state().queue;
-    panel_rows(model).and_then(|rows| queue.get(window(model, rows).0)).unwrap_or_default().to_vec()
+    panel_rows(model).map(|rows| listed(model, rows)).unwrap_or_default()
 }
 
-/// After flags have come and gone: has the panel begin where most of the flags that `before` were in sight stay in
-/// their rows.
+/// After a method has judged anew: has the panel begin where most of the flags that `before` were in sight stay in
+/// their rows. Those it no longer flags keep theirs until the cursor moves, unless they are many: one sees what a step
+/// of a knob has taken away, and the rest need not be looked for.
 pub(super) fn stay(model: &mut Model, before: &[u32]) {
-    // Only by time do the others keep their order.
-    let Some(rows) = panel_rows(model).filter(|_| model.review.sort == Sort::Time) else { return };
+    // Only by time do the others keep their order; runs grow and shrink.
+    let by_time = model.review.sort == Sort::Time && model.review.unit == Unit::Sample;
+    let (Some(rows), Some(first), Some(last)) = (panel_rows(model), before.first(), before.last()) else { return };
+    if !by_time {
+        return;
+    }
     let current = window(model, rows).1;
-    let state = model.state();
-    if let Some(start) = steadiest(before, &state.queue, rows, state.top, current) {
-        model.state_mut().top = model.state().queue[start];
+    let state = model.state_mut();
+    let gone = before.iter().copied().filter(|p| state.queue.binary_search(p).is_err()).collect::<Vec<_>>();
+    state.gone = if gone.len() > rows / 2 || state.queue.is_empty() { Vec::new() } else { gone };
+    state.gone_at = state.cursor;
+    let near = nearby(&state.queue, &state.gone, *first..*last, rows);
+    let current = match near.binary_search(&u32::try_from(state.cursor).unwrap_or(u32::MAX)) {
+        Ok(at) => Some(at),
+        Err(_) => state.queue.get(current).and_then(|p| near.binary_search(p).ok()),
+    };
+    if let Some(start) = current.and_then(|current| steadiest(before, &near, rows, state.top, current)) {
+        state.top = near[start];
     }
 }
 
@@ -125,17 +164,26 @@ fn panel_rows(model: &Model) -> Option<usize> {
     layout::arrange(model).and_then(|areas| areas.queue).map(layout::queue_rows)
 }
 
-/// The start of the window of `rows` flags that has most flags of `before` in their rows and `current` in any; among
-/// equals the one that keeps `top` in the first row.
-fn steadiest(before: &[u32], queue: &[u32], rows: usize, top: u32, current: usize) -> Option<usize> {
+/// The flags from `rows` before some positions to `rows` after them, with those that are gone, by time.
+fn nearby(queue: &[u32], gone: &[u32], positions: Range<u32>, rows: usize) -> Vec<u32> {
+    let from = queue.partition_point(|p| *p < positions.start).saturating_sub(rows);
+    let to = queue.partition_point(|p| *p < positions.end).saturating_add(rows).min(queue.len());
+    let mut near = [&queue[from..to], gone].concat();
+    near.sort_unstable();
+    near
+}
+
+/// The start of the window of `rows` flags that has most flags of `before` in their rows and the one at `current` in
+/// any; among equals the one that keeps `top` in the first row.
+fn steadiest(before: &[u32], flags: &[u32], rows: usize, top: u32, current: usize) -> Option<usize> {
     let starts: Vec<usize> = before
         .iter()
         .enumerate()
-        .filter_map(|(row, position)| queue.binary_search(position).ok()?.checked_sub(row))
-        .filter(|start| *start <= queue.len().saturating_sub(rows) && (*start..*start + rows).contains(&current))
+        .filter_map(|(row, position)| flags.binary_search(position).ok()?.checked_sub(row))
+        .filter(|start| *start <= flags.len().saturating_sub(rows) && (*start..*start + rows).contains(&current))
         .collect();
     let same = |start: usize| starts.iter().filter(|s| **s == start).count();
-    starts.iter().copied().max_by_key(|start| (same(*start), queue[*start] == top))
+    starts.iter().copied().max_by_key(|start| (same(*start), flags[*start] == top))
 }
 
 #[cfg(test)]

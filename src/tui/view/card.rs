@@ -154,13 +154,18 @@ fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Vec<V
             _ => item("expected", "none".into()),
         }
         if let Some(h) = judged.tolerance(i).filter(|h| *h > 0.0) {
-            item(if model.glyphs == Glyphs::Unicode { "±" } else { "+-" }, short(h));
+            item(if model.glyphs == Glyphs::Unicode { "±" } else { "+-" }, rounded(h));
         }
         if let Some(ratio) = drawn.ratio(series, i) {
             item("ratio", ratio_text(ratio));
         }
     }
     pieces
+}
+
+/// A tolerance: four digits are more than it is good for.
+fn rounded(tolerance: f64) -> String {
+    format!("{tolerance:.3e}").parse().map_or_else(|_| short(tolerance), short)
 }
 
 /// What method and analyst say, and what will be written.

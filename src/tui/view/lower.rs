@@ -54,7 +54,9 @@ impl Plots<'_> {
         let widget = ResidualPlot { columns, ratio: &ratio, pyramid, threshold, top, log, theme, glyphs, cursor };
         let what = if widget.is_signed() { "in" } else { "worst per column in" };
         let scale = if log { ", log scale" } else { "" };
-        let words = format!("{what} {}, flagged from {}{scale}  ", self.unit(), short(threshold));
+        // How high it is stands beside it.
+        let line = glyphs.threshold();
+        let words = format!("{what} {}{scale}  {line} threshold  ", self.unit());
         widget.render(area, buffer);
         // A threshold without a result would be that of no method.
         vec![self.dim(if drawn.is_some() { words } else { NOT_JUDGED.into() })]

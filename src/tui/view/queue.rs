@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
-use super::super::layout::queue_rows;
+use super::super::layout::{self, queue_rows};
 use super::super::model::{Group, Model, Sort, Unit};
 use super::super::plot::{FlagState, Glyphs};
 use super::super::update::{mark_at, queue};
@@ -28,7 +28,10 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         Sort::Run => "by run",
     };
     let what = if model.review.unit == Unit::Run { "runs" } else { "in all" };
-    let words = [Span::styled(format!("{by}  {} {what} ", thousands(all.len())), theme.dim)];
+    // Beside the card, which says how many there are, it would go over the wire twice at each step.
+    let beside = layout::arrange(model).is_some_and(|areas| areas.card.is_some());
+    let count = if beside { String::new() } else { format!("{} {what} ", thousands(all.len())) };
+    let words = [Span::styled(format!("{by}  {count}"), theme.dim)];
     let mut body = heading(model, Panel::Queue, &words, area, buffer);
     if all.is_empty() {
         let words = if model.state().drawn.is_some() { "nothing is flagged" } else { NOT_JUDGED };
@@ -36,21 +39,21 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         return;
     }
     let rows = queue_rows(area);
-    let (shown, current) = queue::window(model, rows);
+    let listed = queue::listed(model, rows);
     let wide = body.width >= 52;
     if usize::from(body.height) > rows {
-        names(model, shown.start > 0, wide).render(Rect { height: 1, ..body }, buffer);
+        names(model, queue::goes_on_above(model, &listed), wide).render(Rect { height: 1, ..body }, buffer);
         body = Rect { y: body.y + 1, height: body.height - 1, ..body };
     }
     let series = model.series();
     let days = several_days(model);
-    for (row, index) in shown.enumerate() {
-        let item = match (model.review.unit, all.get(index)) {
-            (_, None) => continue,
-            (Unit::Sample, Some(&start)) => Group { start, length: 1 },
-            (Unit::Run, Some(&start)) => model.group(start as usize).unwrap_or(Group { start, length: 1 }),
+    for (row, start) in listed.into_iter().enumerate() {
+        let single = Group { start, length: 1 };
+        let item = match model.review.unit {
+            Unit::Sample => single,
+            Unit::Run => model.group(start as usize).unwrap_or(single),
         };
-        let here = index == current && item.positions().contains(&model.state().cursor);
+        let here = item.positions().contains(&model.state().cursor);
         let line = entry(model, &series, item, (here, days, wide));
         let row = u16::try_from(row).unwrap_or(u16::MAX);
         line.render(Rect { y: body.y + row, height: 1, ..body }, buffer);
@@ -98,7 +101,8 @@ fn entry(model: &Model, series: &Series<'_>, item: Group, (here, days, wide): (b
         (false, _) => theme.dim,
     };
     let mark = shown.map_or(theme.dim, |s| theme.flag(s));
-    let glyph = shown.map_or(' ', |s| model.glyphs.flag(s));
+    // Without a mark it is one that a knob has just taken away.
+    let glyph = shown.map_or(model.glyphs.gone(), |s| model.glyphs.flag(s));
     let mut spans = vec![Span::styled(text, style), Span::styled(glyph.to_string(), mark)];
     if conflict {
         spans.push(Span::styled("!", theme.warning));

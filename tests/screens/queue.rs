@@ -1,0 +1,46 @@
+//! The queue beside a knob that turns: what is in sight stays where it is.
+
+use super::workbench::{Bench, UNICODE_DARK};
+
+/// The rows of the queue's panel at 120x40: the row of the sample and its mark.
+fn rows(bench: &Bench) -> Vec<String> {
+    let frame = bench.frame();
+    let lines = frame.lines().skip_while(|line| !line.contains("scales") || !line.contains("time")).skip(1);
+    let panel = |line: &str| line.chars().skip(82).collect::<String>();
+    let cells = |panel: String| {
+        let cells: Vec<&str> = panel.trim_start_matches(['>', ' ']).split_whitespace().collect();
+        (cells.len() == 4).then(|| format!("{} {}", cells[0], cells[3]))
+    };
+    lines.map(panel).map_while(cells).collect()
+}
+
+#[test]
+fn a_flag_that_a_knob_takes_away_keeps_its_row_until_the_cursor_moves_on() {
+    let bench = Bench::on("demo.csv", UNICODE_DARK).size((120, 40));
+    let before = rows(&bench);
+    assert_eq!(before[..5], ["61 ●", "91 ●", "200 ●", "222 ●", "239 ●"]);
+    assert_eq!(before[5], "323 ●", "276 is a suspect from k = 3.9 down: {before:?}");
+    let bench = bench.keys(",");
+    let down = rows(&bench);
+    assert_eq!(down[4..7], ["239 ●", "276 ~", "323 ●"]);
+    // Back again the rows are where they were, and the one that went has no mark.
+    let bench = bench.keys(".");
+    let up = rows(&bench);
+    assert_eq!(up[4..7], ["239 ●", "276 ·", "323 ●"]);
+    let of = |rows: &[String]| rows.iter().map(|row| row.split(' ').next().map(str::to_owned)).collect::<Vec<_>>();
+    assert_eq!(of(&up)[..down.len() - 1], of(&down)[..down.len() - 1]);
+    // A step down brings it back into its row.
+    let bench = bench.keys(",");
+    assert_eq!(rows(&bench)[..down.len() - 1], down[..down.len() - 1]);
+    // The cursor passes it by, and then it is no longer there.
+    let bench = bench.keys(".n");
+    assert!(rows(&bench).contains(&"91 ●".to_owned()));
+    assert!(!of(&rows(&bench)).contains(&Some("276".to_owned())));
+}
+
+#[test]
+fn when_much_goes_at_once_the_flags_that_are_left_take_the_rows() {
+    let bench = Bench::on("demo.csv", UNICODE_DARK).size((120, 40)).keys(":set Space k Space 60 Enter");
+    let rows = rows(&bench);
+    assert!(rows.len() > 5 && !rows.iter().any(|row| row.ends_with('·')), "{rows:?}");
+}
