@@ -20,3 +20,4 @@ pub mod stop;
 pub mod stream;
 pub mod track;
 pub mod tui;
+mod wrapped;

@@ -283,17 +283,52 @@ pub struct Faults {
 }
 
 impl Faults {
-    /// The kinds of which there are any, in words.
-    pub fn kinds(&self) -> impl Iterator<Item = (&'static str, &Fault)> {
-        let kinds = [
-            ("repeated times", &self.repeated_times),
-            ("backward times", &self.backward_times),
-            ("unreadable times", &self.unreadable_times),
-            ("unreadable cells", &self.unreadable_cells),
-            ("rows with fewer or more cells than columns", &self.ragged_rows),
-            ("numbers too large for a double", &self.infinite_cells),
+    /// The kinds of which there are any.
+    pub fn kinds(&self) -> impl Iterator<Item = (FaultKind, &Fault)> {
+        let faults = [
+            &self.repeated_times,
+            &self.backward_times,
+            &self.unreadable_times,
+            &self.unreadable_cells,
+            &self.ragged_rows,
+            &self.infinite_cells,
         ];
-        kinds.into_iter().filter(|(_, fault)| fault.count > 0)
+        FAULT_KINDS.into_iter().zip(faults).filter(|(_, fault)| fault.count > 0)
+    }
+}
+
+/// A kind of fault, in words.
+#[derive(Debug, Clone, Copy)]
+pub struct FaultKind {
+    /// Its name in JSON.
+    pub name: &'static str,
+    one: &'static str,
+    many: &'static str,
+}
+
+/// In the order of the fields of [`Faults`].
+const FAULT_KINDS: [FaultKind; 6] = [
+    FaultKind { name: "repeated times", one: "repeated time", many: "repeated times" },
+    FaultKind { name: "backward times", one: "time that goes back", many: "times that go back" },
+    FaultKind { name: "unreadable times", one: "unreadable time", many: "unreadable times" },
+    FaultKind { name: "unreadable cells", one: "unreadable cell", many: "unreadable cells" },
+    FaultKind {
+        name: "rows with fewer or more cells than columns",
+        one: "row with fewer or more cells than columns",
+        many: "rows with fewer or more cells than columns",
+    },
+    FaultKind {
+        name: "numbers too large for a double",
+        one: "number too large for a double",
+        many: "numbers too large for a double",
+    },
+];
+
+impl FaultKind {
+    /// What goes with a count: `repeated time` with 1, else `repeated times`.
+    #[must_use]
+    pub fn words(self, count: usize) -> &'static str {
+        if count == 1 { self.one } else { self.many }
     }
 }
 

@@ -144,12 +144,12 @@ fn a_record_with_an_odd_name_is_found_again_or_its_session_refused() {
 #[test]
 fn what_could_not_be_used_is_told_by_clean_too() {
     let folder = Folder::with(&[("a.csv", b"t,x\n0,1\n1,2\n1,3\n2,four\n3,5\n"), ("b.csv", b"t,x\n0,1\n1,2\n")]);
-    let told = "1 repeated times (line 4: 1)\nnote: 1 unreadable cells (line 5: four (x))\n";
+    let told = "1 repeated time (line 4: 1)\nnote: 1 unreadable cell (line 5: four (x))\n";
     let out = folder.done("clean a.csv");
     assert!(out.starts_with(&format!("note: {told}")), "{out}");
     assert!(!folder.done("clean b.csv").contains("note"));
     let many = folder.done("clean a.csv b.csv");
-    assert!(many.contains("note: a.csv: 1 repeated times (line 4: 1)\n"), "{many}");
+    assert!(many.contains("note: a.csv: 1 repeated time (line 4: 1)\n"), "{many}");
     let json: serde_json::Value = serde_json::from_str(&folder.done("clean a.csv --json")).unwrap();
     assert_eq!(json["notes"].as_array().unwrap().len(), 2);
 }

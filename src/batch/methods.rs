@@ -11,6 +11,7 @@ use crate::method::{METHODS, Method};
 use crate::param::{Param, Value};
 use crate::repair::{PARAMS, REPAIRS};
 use crate::session::method_of_id;
+use crate::wrapped::wrapped;
 
 #[derive(Serialize)]
 struct Listed {
@@ -138,14 +139,7 @@ fn one_line(text: &str) -> String {
 
 fn wrap(out: &mut String, indent: &str, text: &str) {
     const WIDTH: usize = 98;
-    let mut line = String::from(indent);
-    for word in text.split(' ') {
-        if line.len() + word.len() > WIDTH && line.len() > indent.len() {
-            let _ = writeln!(out, "{}", line.trim_end());
-            line = String::from(indent);
-        }
-        line.push_str(word);
-        line.push(' ');
+    for line in wrapped(text, WIDTH, (indent, indent)) {
+        let _ = writeln!(out, "{line}");
     }
-    let _ = writeln!(out, "{}", line.trim_end());
 }

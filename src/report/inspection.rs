@@ -8,7 +8,7 @@ use crate::method::noise;
 use crate::method::shared::MAX_GAP;
 use crate::param::Value;
 use crate::stop::{Stop, Stopped};
-use crate::track::{Delimiter, Encoding, Faults, Series, Track, printable, without_signed_zero};
+use crate::track::{Delimiter, Encoding, FaultKind, Faults, Series, Track, printable, without_signed_zero};
 
 /// The facts of a file.
 #[derive(Debug, Clone, Serialize)]
@@ -83,6 +83,9 @@ pub struct ChannelFacts {
 #[derive(Debug, Clone, Serialize)]
 pub struct FaultFacts {
     /// What it is.
+    #[serde(skip)]
+    kind: FaultKind,
+    /// Its name.
     pub what: &'static str,
     /// How many.
     pub count: usize,
@@ -96,7 +99,7 @@ impl FaultFacts {
         let first: Vec<String> =
             self.first.iter().map(|(line, text)| format!("line {line}: {}", printable(text))).collect();
         let more = if self.count > self.first.len() { ", …" } else { "" };
-        format!("{} ({}{more})", self.what, first.join(", "))
+        format!("{} ({}{more})", self.kind.words(self.count), first.join(", "))
     }
 
     /// How many of what, and where.
@@ -249,7 +252,10 @@ pub(super) fn remarks(track: &Track) -> Vec<String> {
 }
 
 fn fault_facts(faults: &Faults) -> Vec<FaultFacts> {
-    faults.kinds().map(|(what, f)| FaultFacts { what, count: f.count, first: f.first.clone() }).collect()
+    faults
+        .kinds()
+        .map(|(kind, f)| FaultFacts { kind, what: kind.name, count: f.count, first: f.first.clone() })
+        .collect()
 }
 
 /// How the text of a record is laid out, in words.

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use unicode_width::UnicodeWidthStr as _;
 
 use crate::experiment::{Cell, Reproduction, Table};
+use crate::wrapped::wrapped as lines;
 
 /// Width to which sentences are wrapped.
 const WIDTH: usize = 100;
@@ -56,25 +57,7 @@ fn table_text(table: &Table) -> String {
 
 /// Text broken between words; the first line starts with `first`, the others with `next`.
 fn wrapped(text: &str, first: &str, next: &str) -> String {
-    let mut out = String::new();
-    let mut line = first.to_owned();
-    let mut empty = true;
-    for word in text.split_whitespace() {
-        if !empty && line.width() + 1 + word.width() > WIDTH {
-            out.push_str(&line);
-            out.push('\n');
-            line = next.to_owned();
-            empty = true;
-        }
-        if !empty {
-            line.push(' ');
-        }
-        line.push_str(word);
-        empty = false;
-    }
-    out.push_str(&line);
-    out.push('\n');
-    out
+    lines(text, WIDTH, (first, next)).join("\n") + "\n"
 }
 
 #[cfg(test)]

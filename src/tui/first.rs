@@ -48,7 +48,7 @@ mod tests {
         assert_eq!(session.plans[plan(&session)].channel, "range_m");
         assert_eq!(
             notes(&track),
-            ["1 backward times (line 5: 1.5)", "`beacon` may tell several tracks apart: :loader, track column",]
+            ["1 time that goes back (line 5: 1.5)", "`beacon` may tell several tracks apart: :loader, track column",]
         );
         let told = LoadOptions { track: Some("beacon".into()), ..LoadOptions::default() };
         assert_eq!(notes(&loaded(text, &told).0).last().map(String::as_str), None, "each is in order by itself");
@@ -59,7 +59,7 @@ mod tests {
         let (track, session) = loaded("t_s,id\n0,1\n1,2\n2,x\n3,4\n", &LoadOptions::default());
         assert_eq!(plan(&session), 0, "there is nothing else");
         let said = notes(&track);
-        assert!(said[0].starts_with("1 unreadable cells") && said[1].contains(":loader"), "{said:?}");
+        assert!(said[0].starts_with("1 unreadable cell ") && said[1].contains(":loader"), "{said:?}");
         assert!(notes(&loaded("t_s,x\n0,1\n1,2\n2,3\n", &LoadOptions::default()).0).is_empty());
     }
 }

@@ -125,10 +125,10 @@ fn steps(track: &Track, channel: &crate::track::Channel) -> String {
 }
 
 pub(in crate::tui) fn faults(track: &Track) -> Vec<String> {
-    let shown = track.faults.kinds().map(|(what, fault)| {
+    let shown = track.faults.kinds().map(|(kind, fault)| {
         let first =
             fault.first.first().map_or(String::new(), |(line, text)| format!(" (line {line}: {})", printable(text)));
-        format!("{} {what}{first}", fault.count)
+        format!("{} {}{first}", fault.count, kind.words(fault.count))
     });
     shown.collect()
 }
@@ -152,7 +152,7 @@ mod tests {
         assert_eq!(seen.lines[0], "5 rows, 3 columns");
         assert!(seen.lines[2].starts_with("time t_s (seconds), from 0"), "{:?}", seen.lines);
         assert!(seen.lines.iter().any(|l| l == "channels: alt (m) [m]"), "{:?}", seen.lines);
-        assert!(seen.warnings.iter().any(|w| w.starts_with("1 repeated times (line 4")), "{:?}", seen.warnings);
+        assert!(seen.warnings.iter().any(|w| w.starts_with("1 repeated time (line 4")), "{:?}", seen.warnings);
         assert_eq!(seen.table[1], ["time", "number", "text"]);
         assert_eq!(seen.table[2], ["0", "1.5", "a"]);
     }

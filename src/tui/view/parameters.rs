@@ -244,20 +244,9 @@ fn steps_in_line(model: &Model) -> String {
     format!("{}{}", words('↑', known.up.as_ref()), words('↓', known.down.as_ref()))
 }
 
+/// Text broken into lines of a width.
 pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines = Vec::new();
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > width {
-            lines.push(std::mem::take(&mut line));
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    lines.push(line);
-    lines
+    crate::wrapped::wrapped(text, width, ("", ""))
 }
 
 /// Method and parameters in one line, the active knob always among them.
