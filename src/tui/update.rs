@@ -56,6 +56,11 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
     match message {
         Message::Key(key) => {
             model.clicked = None;
+            // Anywhere, also in lists and prompts, which keep what is chosen and typed; a letter may be text there.
+            let letter = key.modifiers.difference(KeyModifiers::SHIFT).is_empty();
+            if !letter && model.keys.meaning(key, None, model.focus) == Meaning::Action(Action::Redraw) {
+                return vec![Effect::Redraw];
+            }
             if !matches!(model.overlay, Overlay::None) {
                 return overlay::key(model, key);
             }

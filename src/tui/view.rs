@@ -136,7 +136,7 @@ fn toast(model: &Model, area: Rect, buffer: &mut Buffer) {
     let style = line.spans.first().map(|s| s.style).unwrap_or_default();
     let text: String = line.spans.iter().map(|s| s.content.as_ref()).collect();
     let lines = parameters::wrapped(&text, width);
-    let most = usize::from(area.y).min(4);
+    let most = usize::from(area.y).min(usize::from(area.y / 2).max(4));
     for (up, text) in lines.iter().take(most.max(1)).rev().enumerate() {
         let row = Rect { y: area.y - u16::try_from(up).unwrap_or(0), ..area };
         clear(row, buffer);

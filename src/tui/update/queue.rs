@@ -118,11 +118,13 @@ fn window(model: &Model, rows: usize) -> (Range<usize>, usize) {
     (from..n.min(from + rows), current)
 }
 
-/// Remembers which flag stands in the first row of the panel. What is gone leaves it when the cursor moves on.
+/// Remembers which flag stands in the first row of the panel. What is gone leaves it when the cursor moves on, but for a
+/// click on one of them.
 pub(super) fn keep_in_sight(model: &mut Model) {
     let Some(rows) = panel_rows(model) else { return };
     let state = model.state_mut();
-    if state.gone_at != state.cursor {
+    let on_one = u32::try_from(state.cursor).is_ok_and(|cursor| state.gone.contains(&cursor));
+    if state.gone_at != state.cursor && !on_one {
         state.gone.clear();
     }
     if let Some(&top) = listed(model, rows).first() {

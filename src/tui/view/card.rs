@@ -163,9 +163,13 @@ fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Vec<V
     pieces
 }
 
-/// A tolerance: four digits are more than it is good for.
+/// A tolerance in four digits, more than it is good for: always as many, so that what follows stays where it is.
 fn rounded(tolerance: f64) -> String {
-    format!("{tolerance:.3e}").parse().map_or_else(|_| short(tolerance), short)
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few digits")]
+    match tolerance.log10().floor() {
+        power @ -4.0..10.0 => format!("{tolerance:.*}", (3.0 - power).max(0.0) as usize),
+        _ => short(tolerance),
+    }
 }
 
 /// What method and analyst say, and what will be written.

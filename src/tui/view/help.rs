@@ -23,7 +23,7 @@ pub(super) fn draw(model: &Model, filter: &Input, from: usize, area: Rect, buffe
     let width = if area.width >= NAMED + 8 { NAMED } else { 78 };
     let inside = popup(model, "keys and commands", (width, area.height), area, buffer);
     let head = Rect { height: inside.height.min(1), ..inside };
-    typed(model, "filter: ", filter).render(head, buffer);
+    typed(model, "filter: ", filter, inside.width).render(head, buffer);
     let body = Rect { y: inside.y + head.height, height: inside.height - head.height, ..inside };
     let lines = lines(model, filter.value(), usize::from(body.width));
     let last = lines.len().saturating_sub(usize::from(body.height));

@@ -6,6 +6,7 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Widget};
 use tui_input::Input;
+use unicode_width::UnicodeWidthStr;
 
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
 use super::super::plot::Glyphs;
@@ -98,13 +99,16 @@ pub(super) fn choices(
     choices
 }
 
-/// A line of text with its cursor.
-pub(super) fn typed(model: &Model, before: &str, input: &Input) -> Line<'static> {
+/// A line of text with its cursor, which is in sight: of what does not fit into `width` columns the beginning is left
+/// out, where one is not typing.
+pub(super) fn typed(model: &Model, before: &str, input: &Input, width: u16) -> Line<'static> {
     // One character for one, so that the cursor stays where it is: what would be shown as an escape is a blot.
     let visible = |c: char| if printable(c.encode_utf8(&mut [0; 4])).chars().eq([c]) { c } else { '\u{fffd}' };
     let text: String = input.value().chars().map(visible).collect();
     let at = input.cursor();
-    let head: String = text.chars().take(at).collect();
+    // One column for the cursor behind the last character.
+    let room = usize::from(width).saturating_sub(before.width() + 1).max(1);
+    let head = end_of(&text.chars().take(at).collect::<String>(), room);
     let under = text.chars().nth(at).unwrap_or(' ');
     let tail: String = text.chars().skip(at + 1).collect();
     Line::from(vec![
@@ -128,7 +132,8 @@ fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) -> Vec<
     let groups = found.windows(2).filter(|w| w[0].group != w[1].group).count();
     let wanted = u16::try_from(found.len() + groups + 5).unwrap_or(u16::MAX);
     let inside = popup(model, title, (76, wanted.max(8)), area, buffer);
-    typed(model, "filter: ", &picker.filter).render(Rect { height: inside.height.min(1), ..inside }, buffer);
+    typed(model, "filter: ", &picker.filter, inside.width)
+        .render(Rect { height: inside.height.min(1), ..inside }, buffer);
     let body = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1), ..inside };
     let mut lines = Vec::new();
     let (mut group, mut choice_row) = ("", 0);
@@ -174,12 +179,12 @@ fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) -> Vec<
         let width = usize::from(area.width).saturating_sub(2).max(1);
         super::parameters::wrapped(&printable(error), width)
     });
-    let most = usize::from(area.height).saturating_sub(2).min(4);
+    let most = usize::from(area.height).saturating_sub(2).min(usize::from(area.height / 2).max(4));
     let wrong = error.into_iter().flatten().take(most).collect::<Vec<_>>();
     let above = row.y - u16::try_from(wrong.len()).unwrap_or(0);
     let choices = super::palette::draw(model, prompt, above, area, buffer);
     clear(row, buffer);
-    typed(model, &before, &prompt.input).render(row, buffer);
+    typed(model, &before, &prompt.input, row.width).render(row, buffer);
     if prompt.kind == PromptKind::Note && prompt.error.is_none() {
         super::reasons::draw(model, prompt, row, buffer);
     }

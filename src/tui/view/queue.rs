@@ -40,13 +40,13 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     }
     let rows = queue_rows(area);
     let listed = queue::listed(model, rows);
-    let wide = body.width >= 52;
-    if usize::from(body.height) > rows {
-        names(model, queue::goes_on_above(model, &listed), wide).render(Rect { height: 1, ..body }, buffer);
-        body = Rect { y: body.y + 1, height: body.height - 1, ..body };
-    }
     let series = model.series();
     let days = several_days(model);
+    let columns = Columns::of(model, &series, days, body.width >= 52);
+    if usize::from(body.height) > rows {
+        names(model, queue::goes_on_above(model, &listed), &columns).render(Rect { height: 1, ..body }, buffer);
+        body = Rect { y: body.y + 1, height: body.height - 1, ..body };
+    }
     for (row, start) in listed.into_iter().enumerate() {
         let single = Group { start, length: 1 };
         let item = match model.review.unit {
@@ -54,14 +54,34 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
             Unit::Run => model.group(start as usize).unwrap_or(single),
         };
         let here = item.positions().contains(&model.state().cursor);
-        let line = entry(model, &series, item, (here, days, wide));
+        let line = entry(model, &series, item, here, &columns);
         let row = u16::try_from(row).unwrap_or(u16::MAX);
         line.render(Rect { y: body.y + row, height: 1, ..body }, buffer);
     }
 }
 
+/// How wide the columns are, and what is in them: as narrow as the record allows. What stands close together costs
+/// less on its way to the terminal, and is easier to read.
+struct Columns {
+    row: usize,
+    time: usize,
+    /// Times tell the day.
+    days: bool,
+    /// Runs have a time.
+    wide: bool,
+}
+
+impl Columns {
+    fn of(model: &Model, series: &Series<'_>, days: bool, wide: bool) -> Self {
+        let ends = [0, series.len().saturating_sub(1)];
+        let time = ends.map(|i| series.t.get(i).map_or(0, |_| time_text(model, series, i, days).chars().count()));
+        let rows = series.len().checked_sub(1).map_or(0, |last| series.row(last) + 1);
+        Self { row: rows.to_string().len().max(3), time: time[0].max(time[1]).max(4), days, wide }
+    }
+}
+
 /// The names of the columns; the arrow says that there are flags above.
-fn names(model: &Model, above: bool, wide: bool) -> Line<'static> {
+fn names(model: &Model, above: bool, columns: &Columns) -> Line<'static> {
     let in_scales = model.state().drawn.as_ref().is_some_and(|d| d.in_scales());
     let unit = if in_scales { "scales" } else { "ratio" };
     let arrow = match (above, model.glyphs) {
@@ -69,16 +89,17 @@ fn names(model: &Model, above: bool, wide: bool) -> Line<'static> {
         (true, Glyphs::Unicode) => '↑',
         (true, _) => '^',
     };
+    let Columns { row, time, wide, .. } = *columns;
     let text = match model.review.unit {
-        Unit::Sample => format!("{arrow}{:>9}  {:>11} {unit:>7}", "row", "time"),
-        Unit::Run if wide => format!("{arrow}{:>ROWS$}  {:>11} {unit:>7}", "rows", "time"),
+        Unit::Sample => format!("{arrow} {:>row$}  {:>time$} {unit:>7}", "row", "time"),
+        Unit::Run if wide => format!("{arrow}{:>ROWS$}  {:>time$} {unit:>7}", "rows", "time"),
         Unit::Run => format!("{arrow}{:>ROWS$} {unit:>7}", "rows"),
     };
     Line::styled(text, model.theme.dim)
 }
 
 /// A row of the panel: a sample, or a run.
-fn entry(model: &Model, series: &Series<'_>, item: Group, (here, days, wide): (bool, bool, bool)) -> Line<'static> {
+fn entry(model: &Model, series: &Series<'_>, item: Group, here: bool, columns: &Columns) -> Line<'static> {
     let theme = &model.theme;
     let marks: Vec<_> = item.positions().filter_map(|i| mark_at(model, i)).collect();
     let states: Vec<FlagState> = marks.iter().filter_map(state).collect();
@@ -88,11 +109,14 @@ fn entry(model: &Model, series: &Series<'_>, item: Group, (here, days, wide): (b
     let worst = item.positions().filter_map(residual).max_by(|a, b| a.abs().total_cmp(&b.abs()));
     let ratio = worst.map_or_else(|| "-".to_owned(), ratio_text);
     let first = item.start as usize;
+    let &Columns { row, time: width, days, wide } = columns;
     let time = || time_text(model, series, first, days);
     let cursor = if here { '>' } else { ' ' };
     let text = match model.review.unit {
-        Unit::Sample => format!("{cursor}{:>9}  {:>11} {ratio:>7} ", series.row(first) + 1, time()),
-        Unit::Run if wide => format!("{cursor}{:>ROWS$}  {:>11} {ratio:>7} ", rows_text(model, series, item), time()),
+        Unit::Sample => format!("{cursor} {:>row$}  {:>width$} {ratio:>7} ", series.row(first) + 1, time()),
+        Unit::Run if wide => {
+            format!("{cursor}{:>ROWS$}  {:>width$} {ratio:>7} ", rows_text(model, series, item), time())
+        }
         Unit::Run => format!("{cursor}{:>ROWS$} {ratio:>7} ", rows_text(model, series, item)),
     };
     let style = match (here, shown) {

@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_of_cells_far_apart_are_put_one_after_the_other() {
+    fn the_way_between_cells_far_apart_is_short() {
         let red = Style::new().fg(Color::Red);
         let mut buffer = Buffer::empty(AREA);
         for (y, style) in [(1, Style::new()), (2, red), (3, Style::new())] {
@@ -231,7 +231,7 @@ mod tests {
             buffer.set_string(20, y, "⣿", style);
         }
         let bytes = encoded(Buffer::empty(AREA).diff(&buffer).into_iter(), &mut Shown::of(AREA.width, AREA.height));
-        assert_eq!(bytes, "\x1b[2;3Ha\n\n\x08a\x1b[17C⣿\x1b[2A\x08⣿\n\x08\x1b[31m⣿\x1b[3Ga\x1b[0m");
+        assert_eq!(bytes, "\x1b[2;3Ha\x1b[17C⣿\n\x08\x1b[31m⣿\x1b[3Ga\n\x08\x1b[0ma\x1b[17C⣿");
     }
 
     #[test]
@@ -251,7 +251,14 @@ mod tests {
         encoded(Buffer::empty(AREA).diff(&before).into_iter(), &mut shown);
         let bytes = encoded(before.diff(&after).into_iter(), &mut shown);
         assert_eq!(bytes, "\x1b[1;3H\x1b[K\n\r\x1b[K\n               ");
-        // Not with a pen that would fill the row.
+        // Nor with a pen that some terminals would leave on the row.
+        let mut underlined = Buffer::empty(AREA);
+        underlined.set_string(0, 0, "a", Style::new().add_modifier(Modifier::UNDERLINED));
+        let mut shown = Shown::of(AREA.width, AREA.height);
+        encoded(Buffer::empty(AREA).diff(&before).into_iter(), &mut shown);
+        let bytes = encoded(before.diff(&underlined).into_iter(), &mut shown);
+        assert!(bytes.contains("\x1b[K") && !bytes.contains("\x1b[4ma\x1b[K"), "{bytes:?}");
+        // Not with a pen that would fill it.
         let mut filled = Buffer::empty(AREA);
         filled.set_string(0, 3, "abc", Style::new().bg(Color::Red));
         before.set_string(4, 3, "a message", Style::new());

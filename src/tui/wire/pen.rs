@@ -30,7 +30,7 @@ impl Pen {
 
     /// True when what is erased with this pen is blank and plain: terminals fill it with the background at hand.
     pub(super) fn erases(self) -> bool {
-        self.bg == PLAIN.bg && !self.modifier.contains(Modifier::REVERSED)
+        self.bg == PLAIN.bg && self.hides_foreground()
     }
 }
 

@@ -19,7 +19,7 @@ pub(super) fn draw(model: &Model, browser: &Browser, area: Rect, buffer: &mut Bu
     let title = if folder.is_empty() { "open".to_owned() } else { format!("open: {folder}") };
     let inside = popup(model, &title, (area.width, area.height), area, buffer);
     let head = Rect { height: inside.height.min(1), ..inside };
-    typed(model, "filter or path: ", &browser.filter).render(head, buffer);
+    typed(model, "filter or path: ", &browser.filter, inside.width).render(head, buffer);
     let body = Rect { y: inside.y + head.height, height: inside.height - head.height, ..inside };
     let (list, pane) = if area.width >= BESIDE {
         let width = body.width * 3 / 5;

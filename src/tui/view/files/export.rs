@@ -23,7 +23,7 @@ pub(super) fn draw(model: &Model, form: &ExportForm, area: Rect, buffer: &mut Bu
         let mark = if chosen { '>' } else { ' ' };
         let head = format!("{mark} [{}] {}", if row.on { 'x' } else { ' ' }, padded(row.kind.name(), NAMES));
         if let (true, Some(input)) = (chosen, &form.typing) {
-            lines.push((typed(model, &head, input), None));
+            lines.push((typed(model, &head, input, inside.width), None));
             continue;
         }
         let there = if row.there { "  there already" } else { "" };

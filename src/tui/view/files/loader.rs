@@ -65,7 +65,7 @@ fn field(model: &Model, form: &LoaderForm, at: usize, width: usize) -> Line<'sta
     let chosen = at == form.choice;
     let name = format!("{}{}", if chosen { "> " } else { "  " }, padded(field.name, NAMES));
     if let (true, Some(input)) = (chosen, &form.typing) {
-        return typed(model, &name, input);
+        return typed(model, &name, input, u16::try_from(width).unwrap_or(u16::MAX));
     }
     let told = (field.text)(&form.options);
     let (text, style) = match &told {
