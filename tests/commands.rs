@@ -406,10 +406,10 @@ fn the_wheel_zooms_at_the_pointer_and_drags_select_and_move() {
 #[test]
 fn clicks_choose_flags_and_knobs_and_the_overview_leads_there() {
     let mut bench = Bench::new();
-    let cell = bench.cell_of("323        323.0");
+    let cell = bench.cell_of("323   323.0");
     bench.click(cell);
     assert_eq!(bench.row(), 323);
-    bench.click(bench.cell_of("323        323.0"));
+    bench.click(bench.cell_of("323   323.0"));
     assert!(bench.model.state().view.width() < bench.model.whole().width(), "the second click zooms");
     let knob = bench.cell_of("points         ");
     bench.click(knob);
