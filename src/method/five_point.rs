@@ -1,6 +1,7 @@
 //! Five-point linear prediction: section 4 of the methods page, \[001\] section 3.
 
 use super::predictor::{self, Answer, Batch, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
+use super::verdict::TIE;
 use super::{About, Judged, Method, Own, Segment, reaches, shared};
 use crate::math::line_of_five::{AHEAD, LANES, LineOfFive};
 use crate::param::{Param, Settings, Value};
@@ -114,21 +115,25 @@ impl Model for Line {
 }
 
 impl Line {
-    /// What is predicted of the next so many samples, should each of them be accepted; true when each is.
+    /// What is predicted of the next so many samples, should each of them be accepted; true when each is for certain.
     #[inline]
     fn all_agree(&self, t: &[f64; AHEAD], y: &[f64; AHEAD], said: &mut [Prediction; AHEAD]) -> bool {
         let scale = self.k * self.sigma;
-        let mut flagged = false;
+        // By how much a sample reaches over its limit, at worst: as [`reaches`] for every tolerance that is positive,
+        // and never less. To ask what kind of number it is, or to branch, would take the lanes apart.
+        let mut worst = [f64::NEG_INFINITY; LANES];
         self.line.ahead(t, y, |s, expected, variance| {
+            let mut tolerance = [0.0; LANES];
             for lane in 0..LANES {
-                let (at, expected) = (5 * lane + s, expected[lane]);
-                let tolerance = scale * (1.0 + variance[lane]).sqrt();
-                // Looked at without a branch.
-                flagged |= reaches((y[at] - expected).abs(), tolerance);
-                said[at] = Prediction { expected, tolerance };
+                tolerance[lane] = scale * (1.0 + variance[lane]).sqrt();
+                let over = (y[5 * lane + s] - expected[lane]).abs() - tolerance[lane] * (1.0 - TIE);
+                worst[lane] = if over > worst[lane] { over } else { worst[lane] };
+            }
+            for lane in 0..LANES {
+                said[5 * lane + s] = Prediction { expected: expected[lane], tolerance: tolerance[lane] };
             }
         });
-        !flagged
+        worst.iter().all(|over| *over < 0.0)
     }
 }
 
