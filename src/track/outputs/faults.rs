@@ -30,7 +30,7 @@ pub(super) fn point() -> Result<()> {
 #[cfg(test)]
 pub(super) use scripted::point;
 #[cfg(test)]
-pub(crate) use scripted::{fail_at, passed};
+pub(crate) use scripted::{die_at, fail_at, passed};
 
 #[cfg(test)]
 mod scripted {
@@ -39,12 +39,19 @@ mod scripted {
     thread_local! {
         static PASSED: Cell<usize> = const { Cell::new(0) };
         static FAILS: Cell<Option<usize>> = const { Cell::new(None) };
+        static DIES: Cell<Option<usize>> = const { Cell::new(None) };
     }
 
     /// Counts from here on; the place with this number (from 0) fails, once.
     pub(crate) fn fail_at(number: Option<usize>) {
         PASSED.set(0);
         FAILS.set(number);
+    }
+
+    /// The program is killed at the place with this number.
+    pub(crate) fn die_at(number: usize) {
+        PASSED.set(0);
+        DIES.set(Some(number));
     }
 
     /// How many places have been passed, the failed one among them.
@@ -54,6 +61,9 @@ mod scripted {
 
     pub(in super::super) fn point() -> std::io::Result<()> {
         let here = PASSED.replace(PASSED.get() + 1);
+        if DIES.get() == Some(here) {
+            std::process::abort();
+        }
         if FAILS.get() == Some(here) { Err(std::io::ErrorKind::StorageFull.into()) } else { Ok(()) }
     }
 }
