@@ -8,6 +8,7 @@ use clap::CommandFactory;
 use crate::cli::{Cli, Command, Load, OutputArgs};
 use crate::error::{Error, Result};
 use crate::report::Inspection;
+use crate::session::{Accepted, Appended};
 use crate::track::{Channel, Source, Track, load, printable_json, printable_lines};
 
 mod clean;
@@ -49,12 +50,14 @@ pub fn run(command: Command, out: &mut dyn Write) -> Result<Ending> {
         Command::Clean { files, shared, suggest, outputs, save_session } => {
             clean::run(&files, (&shared, suggest), &outputs, save_session.as_deref(), out)
         }
-        Command::Replay { sessions, check, accept_changed_data, outputs, threads } => {
+        Command::Replay { sessions, check, accept_changed_data, accept_appended, outputs, threads } => {
             set_threads(threads)?;
+            let appended = if accept_appended { Appended::TakenIn } else { Appended::Refused };
+            let accepted = Accepted { changed: accept_changed_data, appended };
             if check {
-                replay::check_all(&sessions, accept_changed_data, &outputs, out)
+                replay::check_all(&sessions, accepted, &outputs, out)
             } else {
-                replay::run_all(&sessions, accept_changed_data, &outputs, out)
+                replay::run_all(&sessions, accepted, &outputs, out)
             }
         }
         Command::Sweep(args) => sweep::run(&args, out),

@@ -120,6 +120,10 @@ pub enum Command {
         /// Go on although the data are not those of the session.
         #[arg(long)]
         accept_changed_data: bool,
+        /// Judge rows too that were added to the end of a record since its session was saved; every decision stays. With
+        /// --check they are left out, since the recorded result has none of them.
+        #[arg(long)]
+        accept_appended: bool,
         /// What to write.
         #[command(flatten)]
         outputs: OutputArgs,

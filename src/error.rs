@@ -67,6 +67,14 @@ pub enum Error {
         /// The first difference that can be seen.
         what: String,
     },
+    /// Rows were added to the input since the session was saved.
+    #[error("{}: {what}\n  --accept-appended judges them too, every decision stays", shown(path))]
+    Appended {
+        /// The input file.
+        path: PathBuf,
+        /// How many rows.
+        what: String,
+    },
     /// Work was abandoned because nobody waits for it any more.
     #[error("the work was stopped before it ended\n  run it again")]
     Stopped,

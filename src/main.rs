@@ -109,7 +109,7 @@ fn opening(cli: &Cli) -> Result<Opening> {
     let source = match &cli.file {
         None => Source::demo(),
         Some(path) if is_session(path) => {
-            return Ok(Opening::from((open_all(path, false, Wanted::always())?, path.clone())));
+            return Ok(Opening::from((open_all(path, Wanted::always())?, path.clone())));
         }
         Some(path) => Source::File(path.clone()),
     };

@@ -4,12 +4,10 @@ use std::io::Write;
 use std::path::Path;
 
 use crate::error::{Error, Result};
-use crate::method::Verdict;
-use crate::session::{Analysed, Outcome, Session};
-use crate::track::{Cells, Series, Track, for_each_row, inert};
+use crate::session::{Analysed, Session};
+use crate::track::Track;
 
 mod diagnostics;
-mod flags;
 mod html;
 mod inspection;
 mod markdown;
@@ -18,8 +16,8 @@ mod reproduction;
 mod summary;
 mod svg;
 
+pub use crate::session::flags::flags;
 pub use diagnostics::diagnostics;
-pub use flags::flags;
 pub(crate) use inspection::short;
 pub use inspection::{ChannelFacts, Inspection, layout};
 pub use page::ReportForm;
@@ -41,109 +39,4 @@ pub fn report(track: &Track, session: &Session, analysed: &Analysed, path: &Path
         ReportForm::Markdown => markdown::markdown(&page),
     };
     out.write_all(text.as_bytes()).map_err(Error::io("write", path))
-}
-
-/// One channel of a result, walked row by row.
-struct Walk<'a> {
-    series: Series<'a>,
-    name: &'a str,
-    outcome: &'a Outcome,
-    plan: usize,
-    next: usize,
-    /// The rows of its target that are still to come, in a table of several tracks.
-    own: Option<&'a [u32]>,
-}
-
-impl Walk<'_> {
-    /// True when `row` is one of the channel's own; rows must be asked for in ascending order, each once.
-    fn owns(&mut self, row: usize) -> bool {
-        let Some(own) = self.own else { return true };
-        match own.split_first() {
-            Some((first, rest)) if *first as usize == row => {
-                self.own = Some(rest);
-                true
-            }
-            _ => false,
-        }
-    }
-
-    /// The position of the sample of `row`; rows must be asked for in ascending order.
-    fn position(&mut self, row: usize) -> Option<usize> {
-        (self.next < self.series.len() && self.series.row(self.next) == row).then(|| {
-            self.next += 1;
-            self.next - 1
-        })
-    }
-
-    /// The value that the cleaned file has for an outcome's sample; none where the cell is empty.
-    fn clean(&self, position: usize) -> Option<f64> {
-        let fix = self.outcome.fix(position);
-        fix.map_or(Some(self.series.y[position]), |v| v.is_finite().then_some(v))
-    }
-
-    /// The value that fills the missing sample of `row`, if any.
-    fn fill(&self, row: usize) -> Option<f64> {
-        let place = crate::session::Place::Cell(row);
-        let at = self.outcome.fills.binary_search_by_key(&place, |f| f.place).ok()?;
-        self.outcome.fills.get(at).map(|f| f.value)
-    }
-
-    /// The measured value of a row that is not present (no usable time), if its cell is a number.
-    fn raw(&self, track: &Track, row: usize, position: Option<usize>) -> Option<f64> {
-        match position {
-            Some(position) => Some(self.series.y[position]),
-            None => track.channel(self.name).map(|c| c.value(row)).filter(|v| v.is_finite()),
-        }
-    }
-}
-
-/// Calls `visit` with every row and channel of a result (of several tracks, with each row its own channels), in the order of the file and of the session.
-fn walk(
-    track: &Track,
-    session: &Session,
-    analysed: &Analysed,
-    mut visit: impl FnMut(usize, &Cells<'_>, &mut Walk<'_>) -> Result<()>,
-) -> Result<()> {
-    let mut channels: Vec<Walk<'_>> = Vec::new();
-    for (plan, (index, samples, outcome)) in analysed.channels.iter().enumerate() {
-        let channel = &track.channels[*index];
-        channels.push(Walk {
-            series: samples.series(channel, &track.time),
-            name: &session.plans[plan].channel,
-            outcome,
-            plan,
-            next: 0,
-            own: channel.target.as_ref().map(|t| &*t.rows),
-        });
-    }
-    for_each_row(track, |row, cells| {
-        channels.iter_mut().filter_map(|c| c.owns(row).then_some(c)).try_for_each(|channel| visit(row, cells, channel))
-    })
-}
-
-/// The text of the time of a row, as the file has it (but no formula); the sample number where there is no time column.
-fn time_text(track: &Track, row: usize, cells: &Cells<'_>) -> String {
-    track.time.column.map_or_else(|| row.to_string(), |c| inert(&cells.text(c)).into_owned())
-}
-
-/// A number as the tables have it, empty for none.
-fn cell(value: Option<f64>) -> String {
-    value.filter(|v| v.is_finite()).map(crate::track::number_text).unwrap_or_default()
-}
-
-fn verdict_word(outcome: &Outcome, position: Option<usize>) -> &'static str {
-    position.map_or(Verdict::Missing, |p| outcome.verdict(p)).word()
-}
-
-fn csv_error(e: csv::Error) -> Error {
-    let text = e.to_string();
-    let source = match e.into_kind() {
-        csv::ErrorKind::Io(source) => source,
-        _ => std::io::Error::other(text),
-    };
-    Error::Io { action: "write", path: "the table".into(), source }
-}
-
-fn write_row(writer: &mut csv::Writer<&mut dyn Write>, fields: &[&str]) -> Result<()> {
-    writer.write_record(fields).map_err(csv_error)
 }

@@ -8,27 +8,33 @@ use crate::method::{self, METHODS, Method};
 use crate::param::{Settings, find};
 use crate::repair;
 use crate::review::Decisions;
-use crate::track::{LoadOptions, Source, Track};
+use crate::track::{LoadOptions, Lost, Source, Track};
 
 mod analysis;
 mod ballot;
 mod cleaned;
 mod command_line;
+mod decisions;
+mod digest;
 mod document;
 mod edit;
+pub mod flags;
 pub mod journal;
 mod replay;
 mod save;
 pub mod sweep;
+pub mod table;
 
 pub use analysis::{Counts, Detection, Fill, Mark, Outcome, Place, Run, detect, detect_together, settle};
 pub use ballot::{Agreement, Ballot, candidates};
 pub use cleaned::{changes, clean_sha256, write_cleaned};
 pub use command_line::{clean_command, quoted, replay_command};
+pub use decisions::decisions;
+pub use digest::Digest;
 pub use document::{parse, read, render};
 pub use edit::Edit;
-pub use replay::{Analysed, Opened, check, open, open_all};
-pub use save::document;
+pub use replay::{Accepted, Analysed, Appended, Grown, Opened, check, open, open_all};
+pub use save::{document, document_without_record};
 
 /// The method when none is named.
 pub const DEFAULT_METHOD: &str = "two-sided";
@@ -51,8 +57,14 @@ pub struct Data {
     pub source: Source,
     /// SHA-256 of its bytes, lower-case hexadecimal.
     pub sha256: String,
+    /// How many bytes those are: rows that were appended to the file later are not of the session. None in sessions of
+    /// format 1.
+    pub bytes: Option<u64>,
     /// Its data rows.
     pub rows: usize,
+    /// Why the record could not be read when the session was saved, if it could not: decisions then have the time and
+    /// the value as the program knew them, not the texts of the cells.
+    pub record_was: Option<Lost>,
     /// Sums that name the row when a single one has changed; not in sessions written by hand.
     pub row_check: Option<String>,
     /// How to load it.
@@ -90,6 +102,8 @@ pub struct Recorded {
     pub flagged: usize,
     /// SHA-256 of the cleaned file.
     pub clean_sha256: String,
+    /// SHA-256 of the audit table; none in sessions of format 1.
+    pub flags_sha256: Option<String>,
 }
 
 impl std::fmt::Debug for Setup {
@@ -197,7 +211,9 @@ impl Session {
             data: Data {
                 source: track.source.clone(),
                 sha256: track.sha256.clone(),
+                bytes: Some(track.bytes),
                 rows: track.rows,
+                record_was: None,
                 row_check: None,
                 options,
             },

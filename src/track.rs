@@ -13,6 +13,7 @@ mod calendar;
 mod cells;
 mod checks;
 mod chunk;
+mod extent;
 mod feed;
 mod head;
 mod inert;
@@ -34,6 +35,7 @@ mod series;
 mod shape;
 mod sniff;
 mod stamp;
+mod standing;
 mod streamed;
 mod targets;
 mod text;
@@ -46,8 +48,9 @@ mod widen;
 
 pub use cells::Cells;
 pub use checks::RowChecks;
+pub use extent::Extent;
 pub use inert::inert;
-pub use load::{load, load_while};
+pub use load::{load, load_extent, load_while};
 pub(crate) use names::is_id;
 pub(crate) use number::{Cell, Reading};
 pub use number::{number_text, without_signed_zero};
@@ -61,7 +64,9 @@ pub use printable::{printable, printable_json, printable_lines};
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use series::{Samples, Series, lost_samples};
+pub use standing::{Lost, Standing, covered};
 pub use targets::Target;
+pub(crate) use text::hex;
 pub(crate) use tokens::split;
 pub use told::{TimeUnit, Worded};
 pub use wanted::Wanted;
@@ -88,6 +93,8 @@ pub struct Track {
     pub source: Source,
     /// SHA-256 of the bytes of the source as they are stored (compressed, if it is), in lower-case hexadecimal.
     pub sha256: String,
+    /// How many bytes those are: a file may have been appended to since.
+    pub bytes: u64,
     /// How the text is laid out.
     pub dialect: Dialect,
     /// Data rows, whatever they hold.

@@ -57,6 +57,7 @@ mod terminal;
 pub mod theme;
 pub mod update;
 pub mod view;
+pub mod watch;
 mod wire;
 mod words;
 
@@ -86,7 +87,9 @@ pub struct Opening {
 }
 
 impl From<(Opened, PathBuf)> for Opening {
-    fn from((Opened { track, session, notes, own }, file): (Opened, PathBuf)) -> Self {
+    fn from((Opened { track, session, mut notes, own, appended, altered }, file): (Opened, PathBuf)) -> Self {
+        notes.extend(appended.map(|grown| format!("{} · :reload takes them in", grown.words())));
+        notes.extend(altered.into_iter().flatten());
         Self { track, session, file: Some(file), notes, own }
     }
 }

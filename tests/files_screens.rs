@@ -13,7 +13,7 @@ use wildpoint::error::Error;
 use wildpoint::session::{Analysed, Session, Setup, document};
 use wildpoint::stop::Stop;
 use wildpoint::track::{Encoding, LoadOptions, Source, load};
-use wildpoint::tui::files::{FileEntry, FileKind, Glance, Listing, News, Request, Seen, Task};
+use wildpoint::tui::files::{FileEntry, FileKind, Glance, Listing, News, Purpose, Request, Seen, Task};
 use wildpoint::tui::message::{Effect, Message, Output, OutputKind, Written};
 use wildpoint::tui::model::{Model, Overlay};
 use wildpoint::tui::office::Judge;
@@ -298,7 +298,7 @@ fn track_and_encoding_are_told_and_go_into_the_session() {
     bench.key(KeyCode::Right);
     assert!(bench.frame().contains("> encoding         latin-1"), "{}", bench.frame());
     let options = LoadOptions { encoding: Some(Encoding::Latin1), ..options };
-    let request = Request { source: Source::demo(), options: options.clone(), again: true };
+    let request = Request { source: Source::demo(), options: options.clone(), purpose: Purpose::Correct };
     assert_eq!(bench.key(KeyCode::Enter), [Effect::Files(Task::Open { ticket: 1, request })]);
     let mut session = bench.0.session.clone();
     session.data.options = options;
@@ -330,7 +330,7 @@ fn a_changed_option_is_looked_at_and_taken_with_enter() {
     bench.typed("e-99, x");
     bench.key(KeyCode::Enter);
     let options = LoadOptions { missing: vec!["-99".into(), "x".into()], ..options };
-    let request = Request { source: Source::demo(), options, again: true };
+    let request = Request { source: Source::demo(), options, purpose: Purpose::Correct };
     assert_eq!(bench.key(KeyCode::Enter), [Effect::Files(Task::Open { ticket: 1, request })]);
 }
 

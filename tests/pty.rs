@@ -9,6 +9,8 @@ mod bytes;
 mod command_line;
 #[path = "pty/files.rs"]
 mod files;
+#[path = "pty/growing.rs"]
+mod growing;
 #[path = "pty/journal.rs"]
 mod journal;
 #[path = "pty/mouse.rs"]

@@ -40,6 +40,7 @@ fn found() -> Found {
         session: None,
         session_changed: false,
         missing: None,
+        added: 0,
     }
 }
 
@@ -55,4 +56,5 @@ fn the_question_says_what_stands_in_the_way() {
     assert_snapshot!("awkward", question(vec![awkward, found()]));
     let missing = Some("pitch \u{202e}deg".into());
     assert_snapshot!("missing", question(vec![Found { missing, ..found() }]));
+    assert_snapshot!("grown", question(vec![Found { added: 12, ..found() }]));
 }

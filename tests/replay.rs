@@ -12,6 +12,8 @@ use std::path::{Path, PathBuf};
 
 use program::Folder;
 use sha2::{Digest, Sha256};
+use wildpoint::session::{Accepted, Analysed, document, open};
+use wildpoint::stop::Stop;
 
 const DEMO: &str = include_str!("../data/demo.csv");
 const SESSION: &str = include_str!("../sessions/hampel_decisions.toml");
@@ -46,7 +48,9 @@ fn every_saved_session_gives_the_result_it_recorded() {
     let folder = Folder::with(&[]);
     let paths: Vec<String> = sessions().iter().map(|p| p.display().to_string()).collect();
     let printed = folder.done(&format!("replay --check {}", paths.join(" ")));
-    let expected: String = paths.iter().map(|path| format!("{path}: same result\n")).collect();
+    // They are of format 1, and say what they cannot tell.
+    let since = "not checked: settings, decisions and notes against the saved ones (format 1 has no digest)";
+    let expected: String = paths.iter().map(|path| format!("{path}: same result; {since}\n")).collect();
     assert_eq!(printed, expected);
     assert_eq!(folder.names(), [""; 0], "a check writes nothing");
 }
@@ -142,7 +146,7 @@ fn refused(from: &str, to: &str, wanted: &[&str]) {
 
 #[test]
 fn a_tampered_session_is_refused_with_key_and_line() {
-    refused("format = 1", "format = 2", &["format = 2", "version of wildpoint"]);
+    refused("format = 1", "format = 3", &["format = 3", "version of wildpoint"]);
     refused("format = 1", "format = \"one\"", &["format"]);
     refused("rows = 2356", "rowz = 2356", &["rowz", "`rows`"]);
     refused("rows = 2356", "rows = \"many\"", &["rows: ", "whole number"]);
@@ -216,6 +220,63 @@ fn a_result_that_differs_is_a_difference_and_no_error() {
     assert_eq!((json.status, &told[0]["matches"]), (1, &false.into()));
 }
 
+/// The demonstration record and a session of format 2 with four decisions on it.
+fn saved() -> Folder {
+    let folder = folder_with(SESSION, DEMO);
+    let path = folder.path("demo.toml");
+    let mut opened = open(&path, Accepted::default()).unwrap();
+    let analysed = Analysed::of(&opened.session, &opened.track, &Stop::never()).unwrap();
+    let text = document(&mut opened.session, &opened.track, &analysed, &path).unwrap();
+    std::fs::write(path, text).unwrap();
+    folder
+}
+
+#[test]
+fn whatever_was_changed_in_a_session_is_named_although_the_result_is_the_same() {
+    let folder = saved();
+    assert_eq!(folder.done("replay demo.toml --check"), "demo.toml: same result\n");
+    let text = folder.text("demo.toml");
+    let line = |start: &str| text.lines().find(|l| l.starts_with(start)).unwrap().to_owned() + "\n";
+    let accepting = line("  { row = 222");
+    let row_check = line("row_check");
+    let program = line("program");
+    let digest = &text[text.find("\n[digest]").unwrap()..];
+    for (from, to, named) in [
+        ("max_fill = 20", "max_fill = 21", "max_fill of vx_mps was changed"),
+        ("the beacon was switched", "the beacon was stolen", "row 91 of vx_mps: the decision or its note was changed"),
+        (&accepting, "", "row 222 of vx_mps: the decision or its note was removed"),
+        (&row_check, "", "row_check was removed"),
+        (&program, "program = \"wildpoint 9.9.9\"\n", "program was changed"),
+        ("rows = 2356\n", "rows = 2356\ntruth = \"vx_truth_outlier\"\n", "truth was added"),
+        (digest, "", "the digest was removed"),
+        ("flags_sha256 = \"", "flags_sha256 = \"0", "flags_sha256 was changed"),
+    ] {
+        let changed = text.replacen(from, to, 1);
+        assert_ne!(changed, text, "{from}");
+        std::fs::write(folder.path("demo.toml"), &changed).unwrap();
+        let ran = folder.run("replay demo.toml --check");
+        assert_eq!((ran.status, ran.err.as_str()), (1, ""), "{from}");
+        assert!(ran.out.contains(named), "{from}: {}", ran.out);
+        assert!(folder.done("replay demo.toml").contains(&format!("not what the session recorded: {named}")), "{from}");
+    }
+    // What it looks like is free.
+    std::fs::write(folder.path("demo.toml"), format!("# kept by hand\r\n{}", text.replace('\n', "\r\n"))).unwrap();
+    assert_eq!(folder.done("replay demo.toml --check"), "demo.toml: same result\n");
+}
+
+#[test]
+fn a_threshold_that_changes_no_flag_is_named() {
+    let folder = Folder::with_demo();
+    folder.done("clean demo.csv -q --channel vx_mps --set k=4.0 --save-session s.toml");
+    let text = folder.text("s.toml");
+    // The same flags, as the panel of the workbench shows.
+    std::fs::write(folder.path("s.toml"), text.replacen("k = 4.0", "k = 4.1", 1)).unwrap();
+    let ran = folder.run("replay --check s.toml");
+    assert_eq!(ran.status, 1);
+    assert!(ran.out.contains("k of vx_mps was changed since the session was saved"), "{}", ran.out);
+    assert!(!ran.out.contains("samples flagged"), "the count is the same: {}", ran.out);
+}
+
 #[test]
 fn a_session_finds_its_record_from_whatever_folder_it_was_saved_in() {
     let folder = Folder::with_demo();
@@ -254,7 +315,7 @@ fn a_result_that_is_not_the_recorded_one_is_told_without_a_check() {
         for output in ["", " -o clean.csv --force"] {
             let folder = folder_with(session, DEMO);
             let text = folder.done(&format!("replay demo.toml{output}"));
-            let said = format!("note: not the result that the session recorded: the cleaned file has SHA-256 {clean}");
+            let said = format!("note: not what the session recorded: the cleaned file has SHA-256 {clean}");
             assert_eq!(text.contains(&said), differs, "{text}");
             let json = folder.done(&format!("replay demo.toml --json{output}"));
             let summary: serde_json::Value = serde_json::from_str(&json).unwrap();

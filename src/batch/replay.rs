@@ -9,27 +9,28 @@ use super::{Ending, clean, print, tell};
 use crate::cli::OutputArgs;
 use crate::error::{Error, Result};
 use crate::report::Summary;
-use crate::session::{Analysed, Recorded, check, open, read};
+use crate::session::flags::flags_sha256;
+use crate::session::{Accepted, Analysed, Appended, Grown, Recorded, check, open, read};
 use crate::stop::Stop;
 use crate::track::{Outputs, printable};
 
 pub(super) fn run_all(
     sessions: &[PathBuf],
-    accept_changed: bool,
+    accepted: Accepted,
     outputs: &OutputArgs,
     out: &mut dyn Write,
 ) -> Result<Ending> {
     let targets = targets(sessions, outputs, None, cleaned_name)?;
     let talks = !outputs.quiet && !outputs.json;
     if let ([session], [target]) = (sessions, targets.as_slice()) {
-        let (summary, notes) = run(session, accept_changed, target)?;
+        let (summary, notes) = run(session, accepted, target)?;
         if talks {
             tell_notes(session, &notes, out)?;
         }
         return tell(outputs, &summary, out);
     }
     let jobs: Vec<(&PathBuf, Target)> = sessions.iter().zip(targets).collect();
-    let results = set::for_all(&jobs, !talks, |(session, target)| run(session, accept_changed, target));
+    let results = set::for_all(&jobs, !talks, |(session, target)| run(session, accepted, target));
     let mut summaries = Vec::with_capacity(results.len());
     for (session, result) in sessions.iter().zip(results) {
         if let (true, Ok((_, notes))) = (talks, &result) {
@@ -58,9 +59,9 @@ fn tell_notes(session: &Path, notes: &[String], out: &mut dyn Write) -> Result<(
     })
 }
 
-fn run(path: &Path, accept_changed: bool, target: &Target) -> Result<(Summary, Vec<String>)> {
+fn run(path: &Path, accepted: Accepted, target: &Target) -> Result<(Summary, Vec<String>)> {
     let outputs = &target.outputs;
-    let opened = open(path, accept_changed)?;
+    let opened = open(path, accepted)?;
     let analysed = Analysed::of(&opened.session, &opened.track, &Stop::never())?;
     let mut summary = Summary::of(&opened.track, &opened.session, &analysed);
     let mut inputs: Vec<&Path> = opened.track.source.path().into_iter().collect();
@@ -69,34 +70,57 @@ fn run(path: &Path, accept_changed: bool, target: &Target) -> Result<(Summary, V
     let mut files = Outputs::new(outputs.force, &inputs);
     clean::stage(&mut files, outputs, &opened.track, &opened.session, &analysed, &mut summary)?;
     files.commit()?;
+    let mut notes: Vec<String> = opened.appended.map(Grown::words).into_iter().collect();
+    notes.extend(opened.notes);
     if let Some(then) = opened.session.result.as_ref().filter(|_| outputs.json || !outputs.quiet) {
         let now = match summary.clean_sha256.clone() {
-            Some(clean_sha256) => Recorded { flagged: analysed.flagged(), clean_sha256 },
-            None => analysed.recorded(&opened.track)?,
+            Some(clean_sha256) => Recorded {
+                flagged: analysed.flagged(),
+                clean_sha256,
+                flags_sha256: Some(flags_sha256(&opened.track, &opened.session, &analysed)?),
+            },
+            None => analysed.recorded(&opened.session, &opened.track)?,
         };
-        summary.differs = Some(check(Some(then), &now));
+        let mut differs = opened.altered.unwrap_or_default();
+        differs.extend(check(Some(then), &now));
+        summary.differs = Some(differs);
     }
-    Ok((summary, opened.notes))
+    Ok((summary, notes))
 }
 
 /// What was found out about one session.
-#[derive(Debug, serde::Serialize)]
+#[derive(Debug, Default, serde::Serialize)]
 struct Checked {
     session: String,
     matches: bool,
     differences: Vec<String>,
+    /// What was not looked at, and why.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<String>,
     /// Why it could not be run.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
 }
 
+impl Checked {
+    /// In a line.
+    fn words(&self) -> String {
+        let verdict = match &self.error {
+            Some(_) => "failed".to_owned(),
+            None if self.matches => "same result".to_owned(),
+            None => self.differences.join("; "),
+        };
+        [&[verdict], self.notes.as_slice()].concat().join("; ")
+    }
+}
+
 pub(super) fn check_all(
     sessions: &[PathBuf],
-    accept_changed: bool,
+    accepted: Accepted,
     outputs: &OutputArgs,
     out: &mut dyn Write,
 ) -> Result<Ending> {
-    let mut results = set::for_all(sessions, outputs.quiet || outputs.json, |path| differences(path, accept_changed));
+    let mut results = set::for_all(sessions, outputs.quiet || outputs.json, |path| checked(path, accepted));
     // One session alone fails like any command.
     if let ([_], true) = (sessions, results.iter().any(Result::is_err)) {
         results.pop().transpose()?;
@@ -105,11 +129,8 @@ pub(super) fn check_all(
     let failed = results.iter().any(Result::is_err);
     let mut all = Vec::with_capacity(results.len());
     for (path, result) in sessions.iter().zip(results) {
-        let session = path.display().to_string();
-        all.push(match result {
-            Ok(differences) => Checked { session, matches: differences.is_empty(), differences, error: None },
-            Err(e) => Checked { session, matches: false, differences: Vec::new(), error: Some(e.to_string()) },
-        });
+        let checked = result.unwrap_or_else(|e| Checked { error: Some(e.to_string()), ..Checked::default() });
+        all.push(Checked { session: path.display().to_string(), ..checked });
     }
     let ending = if failed {
         Ending::Failed
@@ -123,27 +144,34 @@ pub(super) fn check_all(
         return Ok(ending);
     }
     for checked in all.iter().filter(|c| !outputs.quiet || !c.matches) {
-        let verdict = match &checked.error {
-            Some(_) => "failed".to_owned(),
-            None if checked.matches => "same result".to_owned(),
-            None => checked.differences.join("; "),
-        };
-        print(out, &format!("{}: {}\n", printable(&checked.session), printable(&verdict)))?;
+        print(out, &format!("{}: {}\n", printable(&checked.session), printable(&checked.words())))?;
     }
     Ok(ending)
 }
 
-/// How the result of a session differs from what it recorded. Data that have changed are a difference, not an
-/// error, unless they can no longer be loaded.
-fn differences(path: &Path, accept_changed: bool) -> Result<Vec<String>> {
-    let opened = match open(path, accept_changed) {
+/// How the result of a session differs from what it recorded, and how the session from the one that was saved. Data
+/// that have changed are a difference, not an error, unless they can no longer be loaded. Rows that were added to the
+/// record are left out where they are accepted: what was recorded is the result without them.
+fn checked(path: &Path, accepted: Accepted) -> Result<Checked> {
+    let appended = match accepted.appended {
+        Appended::TakenIn => Appended::LeftOut,
+        other => other,
+    };
+    let opened = match open(path, Accepted { appended, ..accepted }) {
         Ok(opened) => opened,
-        Err(e @ Error::Changed { .. }) => return Ok(vec![e.to_string().replace("\n  ", "; ")]),
+        Err(e @ (Error::Changed { .. } | Error::Appended { .. })) => {
+            return Ok(Checked { differences: vec![e.to_string().replace("\n  ", "; ")], ..Checked::default() });
+        }
         Err(e) => return Err(e),
     };
     let analysed = Analysed::of(&opened.session, &opened.track, &Stop::never())?;
-    let now = analysed.recorded(&opened.track)?;
-    let mut differences = check(opened.session.result.as_ref(), &now);
-    differences.splice(0..0, opened.notes);
-    Ok(differences)
+    let now = analysed.recorded(&opened.session, &opened.track)?;
+    let mut notes: Vec<String> = opened.appended.map(Grown::words).into_iter().collect();
+    if opened.altered.is_none() {
+        notes.push("not checked: settings, decisions and notes against the saved ones (format 1 has no digest)".into());
+    }
+    let mut differences = opened.notes;
+    differences.extend(opened.altered.unwrap_or_default());
+    differences.extend(check(opened.session.result.as_ref(), &now));
+    Ok(Checked { matches: differences.is_empty(), differences, notes, ..Checked::default() })
 }

@@ -2,9 +2,9 @@
 
 use std::io::Write;
 
-use super::{cell, time_text, verdict_word, walk, write_row};
 use crate::error::{Error, Result};
 use crate::method::Verdict;
+use crate::session::table::{cell, time_text, verdict_word, walk, write_row};
 use crate::session::{Analysed, Session};
 use crate::track::{Track, inert};
 

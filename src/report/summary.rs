@@ -177,7 +177,7 @@ impl Summary {
             });
         }
         for difference in self.differs.iter().flatten() {
-            let _ = writeln!(out, "note: not the result that the session recorded: {}", printable(difference));
+            let _ = writeln!(out, "note: not what the session recorded: {}", printable(difference));
         }
         out
     }

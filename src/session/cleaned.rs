@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 
 use super::{Outcome, Place};
 use crate::error::Result;
-use crate::track::{CellChange, Changes, NewRow, Samples, Track, rewrite};
+use crate::track::{CellChange, Changes, NewRow, Samples, Track, hex, rewrite};
 
 /// What the outcomes change in the file. Each outcome belongs to the channel of that index in the track.
 #[must_use]
@@ -61,9 +61,10 @@ pub fn clean_sha256(track: &Track, changes: &Changes) -> Result<String> {
     write_cleaned(track, changes, &mut std::io::sink())
 }
 
-struct Hashing<'a> {
-    out: &'a mut dyn Write,
-    hash: Sha256,
+/// A writer that hashes what passes.
+pub(super) struct Hashing<'a> {
+    pub(super) out: &'a mut dyn Write,
+    pub(super) hash: Sha256,
 }
 
 impl Write for Hashing<'_> {
@@ -76,12 +77,4 @@ impl Write for Hashing<'_> {
     fn flush(&mut self) -> std::io::Result<()> {
         self.out.flush()
     }
-}
-
-fn hex(bytes: &[u8]) -> String {
-    use std::fmt::Write as _;
-    bytes.iter().fold(String::new(), |mut text, b| {
-        let _ = write!(text, "{b:02x}");
-        text
-    })
 }

@@ -6,7 +6,10 @@ mod write;
 
 pub(super) use read::{Read, WrittenDecision, read_with_texts};
 pub use read::{parse, read};
+pub(super) use write::quoted;
 pub use write::render;
 
-/// The version of the file that this program writes and reads.
-const FORMAT: i64 = 1;
+/// The version of the file that this program writes.
+const FORMAT: i64 = 2;
+/// The oldest that it reads.
+const OLDEST: i64 = 1;

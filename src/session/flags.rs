@@ -2,11 +2,13 @@
 
 use std::io::Write;
 
-use super::{Walk, cell, time_text, walk, write_row};
+use sha2::{Digest, Sha256};
+
+use super::cleaned::Hashing;
+use super::table::{Walk, cell, time_text, walk, write_row};
+use super::{Analysed, Mark, Run, Session};
 use crate::error::{Error, Result};
 use crate::method::{Direction, Verdict};
-use crate::plot::FlagState;
-use crate::session::{Analysed, Session};
 use crate::track::{Track, inert};
 
 /// The columns, in order.
@@ -47,6 +49,17 @@ pub fn flags(track: &Track, session: &Session, analysed: &Analysed, out: &mut dy
     writer.flush().map_err(Error::io("write", "the flags"))
 }
 
+/// SHA-256 of the audit table, which is not written, in lower-case hexadecimal.
+///
+/// # Errors
+/// As [`flags`].
+pub fn flags_sha256(track: &Track, session: &Session, analysed: &Analysed) -> Result<String> {
+    let mut nowhere = std::io::sink();
+    let mut hashing = Hashing { out: &mut nowhere, hash: Sha256::new() };
+    flags(track, session, analysed, &mut hashing)?;
+    Ok(crate::track::hex(&hashing.hash.finalize()))
+}
+
 fn of_sample(session: &Session, channel: &Walk<'_>, row: usize, position: usize) -> Option<[String; 17]> {
     let e = evidence(session, channel, row, position)?;
     let word = |d: Option<Direction>| d.map_or("", Direction::word).to_owned();
@@ -73,53 +86,55 @@ fn of_sample(session: &Session, channel: &Walk<'_>, row: usize, position: usize)
 
 /// All that is known about a sample that is not normal or that somebody decided on.
 #[derive(Debug, Clone)]
-pub(super) struct Evidence {
+pub struct Evidence {
     /// Data row, from 1.
-    pub(super) row: usize,
+    pub row: usize,
     /// The measured value.
-    pub(super) raw: f64,
+    pub raw: f64,
     /// What holds.
-    pub(super) verdict: Verdict,
-    /// How it is marked in pictures; none for a sample that nobody marks.
-    pub(super) state: Option<FlagState>,
+    pub verdict: Verdict,
+    /// How it is marked; none for a sample that nobody marks.
+    pub mark: Option<Mark>,
     /// The run of outliers that it belongs to.
-    pub(super) run: Option<InRun>,
+    pub run: Option<InRun>,
     /// The expected value.
-    pub(super) expected: Option<f64>,
+    pub expected: Option<f64>,
     /// The tolerance; 0 only for a flag (where 0 flags nothing it is none).
-    pub(super) tolerance: Option<f64>,
+    pub tolerance: Option<f64>,
     /// What the extrapolation from before says.
-    pub(super) forward: Option<Direction>,
+    pub forward: Option<Direction>,
     /// What the extrapolation from after says.
-    pub(super) backward: Option<Direction>,
+    pub backward: Option<Direction>,
     /// The value in the cleaned file; none where the cell is empty.
-    pub(super) clean: Option<f64>,
+    pub clean: Option<f64>,
     /// True when the analyst decided, false when only the method did.
-    pub(super) decided: bool,
+    pub decided: bool,
     /// The analyst's note; often empty.
-    pub(super) note: String,
+    pub note: String,
 }
 
 /// The place of a sample in a run of outliers.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct InRun {
+pub struct InRun {
     /// Data row (from 1) of the first.
-    pub(super) start: usize,
+    pub start: usize,
     /// How many they are.
-    pub(super) length: usize,
+    pub length: usize,
     /// The place of the sample among them, from 1.
-    pub(super) place: usize,
+    pub place: usize,
 }
 
 impl Evidence {
     /// |raw - expected| / tolerance.
-    pub(super) fn ratio(&self) -> Option<f64> {
+    #[must_use]
+    pub fn ratio(&self) -> Option<f64> {
         let tolerance = self.tolerance.filter(|h| *h > 0.0);
         self.expected.zip(tolerance).map(|(p, h)| (self.raw - p).abs() / h)
     }
 
     /// What is done with the sample: `repaired`, `removed` or `kept`.
-    pub(super) fn action(&self) -> &'static str {
+    #[must_use]
+    pub fn action(&self) -> &'static str {
         match (self.verdict, self.clean) {
             (Verdict::Outlier, Some(_)) => "repaired",
             (Verdict::Outlier, None) => "removed",
@@ -129,7 +144,8 @@ impl Evidence {
 }
 
 /// What is known about the sample of `row` at `position`; none for a normal one that nobody decided on.
-pub(super) fn evidence(session: &Session, channel: &Walk<'_>, row: usize, position: usize) -> Option<Evidence> {
+#[must_use]
+pub fn evidence(session: &Session, channel: &Walk<'_>, row: usize, position: usize) -> Option<Evidence> {
     let outcome = channel.outcome;
     let judged = &outcome.detection.judged;
     let mark = outcome.mark(position);
@@ -142,16 +158,13 @@ pub(super) fn evidence(session: &Session, channel: &Walk<'_>, row: usize, positi
         .and_then(|_| u32::try_from(row).ok())
         .and_then(|row| session.plans[channel.plan].decisions.get(row));
     let directions = judged.directions().get(position);
-    let in_run = |r: &crate::session::Run| InRun {
-        start: channel.series.row(r.start) + 1,
-        length: r.length,
-        place: position - r.start + 1,
-    };
+    let in_run =
+        |r: &Run| InRun { start: channel.series.row(r.start) + 1, length: r.length, place: position - r.start + 1 };
     Some(Evidence {
         row: row + 1,
         raw: channel.series.y[position],
         verdict,
-        state: mark.and_then(crate::plot::state),
+        mark: mark.cloned(),
         run: outcome.run(position).map(in_run),
         expected: judged.expected().get(position).copied().filter(|p| p.is_finite()),
         tolerance: judged.tolerance(position).filter(|h| *h > 0.0 || verdict == Verdict::Outlier),

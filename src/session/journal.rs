@@ -20,6 +20,8 @@ pub struct Header {
     pub record: String,
     /// SHA-256 of the record, lower-case hexadecimal.
     pub sha256: String,
+    /// How many bytes those are: the record may have been appended to since. None in journals of earlier versions.
+    pub bytes: Option<u64>,
     /// Its data rows.
     pub rows: usize,
     /// The session file that the work goes on from, if there is one.

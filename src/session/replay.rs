@@ -5,12 +5,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::document::{Read, WrittenDecision, read_with_texts};
+use super::flags::flags_sha256;
+use super::save::known;
 use super::{
-    Detection, Outcome, Plan, Recorded, Session, Setup, changes, clean_sha256, detect, detect_together, settle,
+    Data, Detection, Outcome, Plan, Recorded, Session, Setup, changes, clean_sha256, detect, detect_together, settle,
 };
 use crate::error::{Error, Result};
 use crate::stop::Stop;
-use crate::track::{LoadOptions, RowChecks, Samples, Source, Track, Wanted, for_each_row, load_while};
+use crate::track::{
+    Extent, LoadOptions, RowChecks, Samples, Source, Standing, Track, Wanted, covered, for_each_row, load_extent,
+};
 
 /// A session with its record.
 #[derive(Debug)]
@@ -23,26 +27,72 @@ pub struct Opened {
     pub notes: Vec<String>,
     /// For each plan of the session, whether its file has it; [`open_all`] adds those that it does not have.
     pub own: Vec<bool>,
+    /// Rows that were added to the record since the session was saved.
+    pub appended: Option<Grown>,
+    /// What was changed in the session file since it was saved, in words; none where the file does not tell (format 1).
+    pub altered: Option<Vec<String>>,
+}
+
+/// What is done with rows that were added to the end of the record since the session was saved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Appended {
+    /// The session is refused.
+    #[default]
+    Refused,
+    /// They are judged like the others.
+    TakenIn,
+    /// The session is about the rows before them.
+    LeftOut,
+}
+
+/// Rows that were added to the end of the record since the session was saved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Grown {
+    /// How many.
+    pub rows: usize,
+    /// True when they were not loaded.
+    pub left_out: bool,
+}
+
+impl Grown {
+    /// What happened, in words.
+    #[must_use]
+    pub fn words(self) -> String {
+        let were = if self.rows == 1 { "1 row was".to_owned() } else { format!("{} rows were", self.rows) };
+        let out = if self.left_out { ", and left out" } else { "" };
+        format!("{were} added to the record since the session was saved{out}")
+    }
+}
+
+/// How a record may differ from that of its session.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Accepted {
+    /// True when any of it may have changed: decisions that no longer fit are left out.
+    pub changed: bool,
+    /// What is done with added rows.
+    pub appended: Appended,
 }
 
 /// Reads the session at `path` and loads its record. The SHA-256, the number of rows, and the row, time and value
-/// of each decision must be those of the session; with `accept_changed` the data may differ, and decisions that
-/// no longer fit them are left out, with a note each.
+/// of each decision must be those of the session, but for what is `accepted`: decisions that no longer fit changed data
+/// are left out, with a note each.
 ///
 /// # Errors
-/// [`Error::Changed`] with the first difference; [`Error::Session`] for a decision that does not fit its row; and
+/// [`Error::Changed`] with the first difference; [`Error::Appended`]; [`Error::Session`] for a decision that does not fit its row; and
 /// what reading and loading give.
-pub fn open(path: &Path, accept_changed: bool) -> Result<Opened> {
-    open_with(path, accept_changed, true, Wanted::always())
+pub fn open(path: &Path, accepted: Accepted) -> Result<Opened> {
+    open_with(path, accepted, true, Wanted::always())
 }
 
 /// [`open`] that loads every channel of the record, not only those of the session, and adds a plan with the default
-/// method for each of the others, all in the order of the record: for the workbench.
+/// method for each of the others, all in the order of the record: for the workbench. Rows that were added to the record
+/// are left out.
 ///
 /// # Errors
 /// As [`open`]; [`Error::Stopped`] when the session is no longer wanted.
-pub fn open_all(path: &Path, accept_changed: bool, wanted: Wanted<'_>) -> Result<Opened> {
-    let mut opened = open_with(path, accept_changed, false, wanted)?;
+pub fn open_all(path: &Path, wanted: Wanted<'_>) -> Result<Opened> {
+    let accepted = Accepted { appended: Appended::LeftOut, ..Accepted::default() };
+    let mut opened = open_with(path, accepted, false, wanted)?;
     opened.own.clear();
     let others = Session::new(&opened.track, LoadOptions::default(), &Setup::standard());
     let mut own = std::mem::take(&mut opened.session.plans);
@@ -58,8 +108,8 @@ pub fn open_all(path: &Path, accept_changed: bool, wanted: Wanted<'_>) -> Result
     Ok(opened)
 }
 
-fn open_with(path: &Path, accept_changed: bool, only_planned: bool, wanted: Wanted<'_>) -> Result<Opened> {
-    let Read { mut session, texts, rows_line } = read_with_texts(path)?;
+fn open_with(path: &Path, accepted: Accepted, only_planned: bool, wanted: Wanted<'_>) -> Result<Opened> {
+    let Read { mut session, texts, rows_line, altered } = read_with_texts(path)?;
     let mut channels: Vec<String> = Vec::new();
     if only_planned {
         channels.extend(session.plans.iter().map(|p| p.channel.clone()));
@@ -70,39 +120,98 @@ fn open_with(path: &Path, accept_changed: bool, only_planned: bool, wanted: Want
         }
     }
     let options = LoadOptions { channels, ..session.data.options.clone() };
-    let track = load_while(&session.data.source, &options, wanted).map_err(|e| of_session(path, e))?;
+    let (track, added) =
+        load_covered(&session.data, &options, accepted.appended, wanted).map_err(|e| of_session(path, e))?;
+    let misfits = misfits(&track, &session, &texts, wanted)?;
     let mut notes = Vec::new();
-    let changed = track.sha256 != session.data.sha256;
-    let misfits = misfits(&track, &session.plans, &texts, wanted)?;
-    if changed {
-        let what = difference(&session, &track, misfits.first())?;
-        if !accept_changed {
-            return Err(Error::Changed { path: file_of(&session.data.source), what });
+    let appended = added.map(|rows| Grown { rows, left_out: accepted.appended == Appended::LeftOut });
+    match &appended {
+        Some(grown) if accepted.appended == Appended::Refused => {
+            return Err(Error::Appended { path: file_of(&session.data.source), what: grown.words() });
         }
-        notes.push(format!("the data are not those of the session: {what}"));
-    } else if session.data.rows != track.rows {
-        return Err(Error::Session {
-            path: path.to_path_buf(),
-            line: rows_line,
-            what: format!("rows = {}: the record has {}", session.data.rows, track.rows),
-            help: "restore the session file, or save the session again".into(),
-        });
-    } else if let Some(misfit) = misfits.first() {
-        return Err(Error::Session {
-            path: path.to_path_buf(),
-            line: misfit.line,
-            what: misfit.what.clone(),
-            help: "restore the session file, or take the decision out of it".into(),
-        });
+        // What was recorded is the result of the rows before.
+        Some(Grown { left_out: false, .. }) => session.result = None,
+        _ if track.sha256 == session.data.sha256 => verify(path, &session, &track, (&misfits, rows_line))?,
+        _ => {
+            let what = difference(&session, &track, misfits.first())?;
+            if !accepted.changed {
+                return Err(Error::Changed { path: file_of(&session.data.source), what });
+            }
+            notes.push(format!("the data are not those of the session: {what}"));
+        }
     }
     for misfit in misfits {
         session.plans[misfit.plan].decisions.set(misfit.row, None);
         notes.push(format!("left out: {}", misfit.what));
     }
     session.data.sha256.clone_from(&track.sha256);
-    session.data.rows = track.rows;
+    (session.data.bytes, session.data.rows) = (Some(track.bytes), track.rows);
+    if let Some(was) = session.data.record_was.take() {
+        notes.push(format!("the session was saved when its record {}: save it once more", Standing::Lost(was).words()));
+    }
     let own = vec![true; session.plans.len()];
-    Ok(Opened { session, track, notes, own })
+    Ok(Opened { session, track, notes, own, appended, altered })
+}
+
+/// On the record that it was made on, everything in a session must fit.
+fn verify(
+    path: &Path,
+    session: &Session,
+    track: &Track,
+    (misfits, rows_line): (&[Misfit], Option<usize>),
+) -> Result<()> {
+    let fault = |line, what, help: &str| Error::Session { path: path.to_path_buf(), line, what, help: help.into() };
+    if session.data.rows != track.rows {
+        let what = format!("rows = {}: the record has {}", session.data.rows, track.rows);
+        return Err(fault(rows_line, what, "restore the session file, or save the session again"));
+    }
+    match misfits.first() {
+        None => Ok(()),
+        Some(Misfit { line, what, .. }) => {
+            Err(fault(*line, what.clone(), "restore the session file, or take the decision out of it"))
+        }
+    }
+}
+
+/// The record of a session and, where it only has more rows than the session says, how many more.
+fn load_covered(
+    data: &Data,
+    options: &LoadOptions,
+    appended: Appended,
+    wanted: Wanted<'_>,
+) -> Result<(Track, Option<usize>)> {
+    let load = |extent| load_extent(&data.source, options, extent, wanted);
+    let length = data.source.path().and_then(|path| path.metadata().ok()).map(|about| about.len());
+    let start = match data.bytes {
+        // Measured first: it may be growing just now.
+        Some(bytes) if length.is_some_and(|length| length > bytes) => covered(&data.source, &data.sha256, Some(bytes))?,
+        Some(_) => None,
+        None => {
+            let track = load(Extent::All)?;
+            if track.sha256 == data.sha256 || track.dialect.gzip {
+                return Ok((track, None));
+            }
+            match covered(&data.source, &data.sha256, None)? {
+                None => return Ok((track, None)),
+                start => start,
+            }
+        }
+    };
+    let Some(bytes) = start else {
+        let as_saved = data.bytes.filter(|bytes| length == Some(*bytes));
+        return Ok((load(as_saved.map_or(Extent::All, Extent::First))?, None));
+    };
+    if appended == Appended::LeftOut {
+        let track = load(Extent::First(bytes))?;
+        let rows = match Standing::of(&track) {
+            Standing::Grown { rows } => rows,
+            _ => 0,
+        };
+        return Ok((track, Some(rows).filter(|rows| *rows > 0)));
+    }
+    let track = load(Extent::All)?;
+    let rows = track.rows.saturating_sub(data.rows);
+    Ok((track, Some(rows)))
 }
 
 /// What loading the record of a session complained of, with the session it is about.
@@ -134,10 +243,11 @@ struct Misfit {
 
 fn misfits(
     track: &Track,
-    plans: &[Plan],
+    session: &Session,
     texts: &[Vec<WrittenDecision>],
     wanted_by: Wanted<'_>,
 ) -> Result<Vec<Misfit>> {
+    let plans = &session.plans;
     // All decisions about a row, with the plan and the column they are about.
     let mut wanted: BTreeMap<usize, Vec<(usize, usize, &WrittenDecision)>> = BTreeMap::new();
     for (index, (plan, texts)) in plans.iter().zip(texts).enumerate() {
@@ -159,23 +269,30 @@ fn misfits(
             misfit(*plan, text, format!("decided on, but the record has {} rows", track.rows));
         }
     }
+    let mut compare = |plan: usize, text: &WrittenDecision, (time, value): (&str, &str)| {
+        if value != text.value {
+            misfit(plan, text, format!("the value is {value:?}, the decision was made on {:?}", text.value));
+        } else if time != text.time {
+            misfit(plan, text, format!("the time is {time:?}, the decision was made at {:?}", text.time));
+        } else if channel_value(track, &plans[plan].channel, text.row as usize - 1).is_nan() {
+            misfit(plan, text, "decided on, but it has no value or no usable time".into());
+        }
+    };
+    if session.data.record_was.is_some() {
+        for (plan, _, text) in wanted.range(..track.rows).flat_map(|(_, here)| here) {
+            let (time, value) = known(track, &plans[*plan].channel, text.row as usize - 1);
+            compare(*plan, text, (&time, &value));
+        }
+        return Ok(misfits);
+    }
     for_each_row(track, |row, cells| {
         if row.is_multiple_of(Stop::STRIDE) && !wanted_by.still() {
             return Err(Error::Stopped);
         }
         for (plan, column, text) in wanted.get(&row).into_iter().flatten() {
-            let value = cells.text(*column);
-            if value != text.value.as_str() {
-                misfit(*plan, text, format!("the value is {value:?}, the decision was made on {:?}", text.value));
-                continue;
-            }
             // Empty on both sides where the time is the number of the sample.
             let time = track.time.column.map(|c| cells.text(c)).unwrap_or_default();
-            if time != text.time.as_str() {
-                misfit(*plan, text, format!("the time is {time:?}, the decision was made at {:?}", text.time));
-            } else if channel_value(track, &plans[*plan].channel, row).is_nan() {
-                misfit(*plan, text, "decided on, but it has no value or no usable time".into());
-            }
+            compare(*plan, text, (&time, &cells.text(*column)));
         }
         Ok(())
     })?;
@@ -263,10 +380,11 @@ impl Analysed {
     /// What a saved session records of this result.
     ///
     /// # Errors
-    /// As [`clean_sha256`].
-    pub fn recorded(&self, track: &Track) -> Result<Recorded> {
+    /// As [`clean_sha256`] and [`flags_sha256`].
+    pub fn recorded(&self, session: &Session, track: &Track) -> Result<Recorded> {
         let clean_sha256 = clean_sha256(track, &self.changes(track))?;
-        Ok(Recorded { flagged: self.flagged(), clean_sha256 })
+        let flags_sha256 = Some(flags_sha256(track, session, self)?);
+        Ok(Recorded { flagged: self.flagged(), clean_sha256, flags_sha256 })
     }
 }
 
@@ -312,6 +430,11 @@ pub fn check(recorded: Option<&Recorded>, now: &Recorded) -> Vec<String> {
             "the cleaned file has SHA-256 {}, the session recorded {}",
             now.clean_sha256, then.clean_sha256
         ));
+    }
+    if let (Some(then), Some(now)) = (&then.flags_sha256, &now.flags_sha256)
+        && then != now
+    {
+        differences.push(format!("the table of flags has SHA-256 {now}, the session recorded {then}"));
     }
     differences
 }

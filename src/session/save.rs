@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::{Analysed, Session, render};
 use crate::error::Result;
-use crate::track::{RowChecks, Track, for_each_row};
+use crate::track::{Lost, RowChecks, Track, for_each_row, number_text};
 
 /// The text of the session file at `path` for `session` on `track`, with the result of `analysed` recorded in it.
 ///
@@ -13,10 +13,41 @@ use crate::track::{RowChecks, Track, for_each_row};
 /// When the input cannot be read again, or is no longer the one that was loaded, and [`crate::error::Error::Input`] for a
 /// record whose name no text can hold.
 pub fn document(session: &mut Session, track: &Track, analysed: &Analysed, path: &Path) -> Result<String> {
+    covers(session, track, None);
     session.data.row_check = Some(RowChecks::of(track)?.to_string());
-    session.result = Some(analysed.recorded(track)?);
+    session.result = Some(analysed.recorded(session, track)?);
     let texts = texts(session, track)?;
     render(session, path, &texts)
+}
+
+/// The same when the record can no longer be read: the decisions have times and values as the program knows them, and no
+/// result is recorded.
+///
+/// # Errors
+/// [`crate::error::Error::Input`] for a record whose name no text can hold.
+pub fn document_without_record(session: &mut Session, track: &Track, lost: Lost, path: &Path) -> Result<String> {
+    covers(session, track, Some(lost));
+    session.result = None;
+    let of_plan = |plan: &super::Plan| {
+        let known = |(row, _): (u32, _)| known(track, &plan.channel, row as usize);
+        plan.decisions.iter().map(known).collect::<Vec<_>>()
+    };
+    let texts: Vec<_> = session.plans.iter().map(of_plan).collect();
+    render(session, path, &texts)
+}
+
+/// Says which rows the session is about.
+fn covers(session: &mut Session, track: &Track, lost: Option<Lost>) {
+    let data = &mut session.data;
+    data.sha256.clone_from(&track.sha256);
+    (data.bytes, data.rows, data.record_was) = (Some(track.bytes), track.rows, lost);
+}
+
+/// Time and value of a row (from 0) as the program knows them: equal texts mean equal numbers.
+pub(super) fn known(track: &Track, channel: &str, row: usize) -> (String, String) {
+    let seconds = track.time.seconds.get(row).copied().filter(|_| track.time.column.is_some());
+    let value = track.channel(channel).map(|c| c.value(row)).filter(|v| v.is_finite());
+    (seconds.map(|s| track.time.exact_label(s)).unwrap_or_default(), value.map(number_text).unwrap_or_default())
 }
 
 /// For each plan, time and value of each decided row as the file has them.

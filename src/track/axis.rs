@@ -33,6 +33,19 @@ impl TimeAxis {
         }
     }
 
+    /// The whole time with all the decimals that it has, so that equal texts mean equal times: `2019-11-11T17:57:05.25Z`,
+    /// `1239.5`. Empty for NaN.
+    #[must_use]
+    pub fn exact_label(&self, seconds: f64) -> String {
+        let Some(ns) = self.ns_at(seconds) else { return String::new() };
+        let digits = (0..MOST_DECIMALS).find(|d| rounded(ns, *d) == ns).unwrap_or(MOST_DECIMALS);
+        match (self.date(seconds), self.count_unit()) {
+            (Some(date), _) => format!("{date}T{}Z", self.label(seconds, digits)),
+            (None, Some(unit)) => fixed(ns, unit, MOST_DECIMALS).trim_end_matches('0').trim_end_matches('.').to_owned(),
+            (None, None) => self.label(seconds, digits),
+        }
+    }
+
     /// The date in UTC, `2019-11-11`, where the file tells dates.
     #[must_use]
     pub fn date(&self, seconds: f64) -> Option<String> {

@@ -8,8 +8,8 @@ use flate2::read::MultiGzDecoder;
 use memchr::{memchr, memrchr};
 use sha2::{Digest, Sha256};
 
-use super::Wanted;
 use super::text::hex;
+use super::{Extent, Wanted};
 
 /// Why a text cannot be read piece by piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +40,8 @@ pub(crate) enum Supply<'a> {
 /// A file whose bytes are hashed as they pass.
 #[derive(Debug)]
 pub(crate) struct Hashed {
-    file: File,
+    file: io::Take<File>,
+    bytes: u64,
     hash: Sha256,
 }
 
@@ -48,6 +49,7 @@ impl Read for Hashed {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let read = self.file.read(buffer)?;
         self.hash.update(&buffer[..read]);
+        self.bytes += read as u64;
         Ok(read)
     }
 }
@@ -63,14 +65,14 @@ impl Read for Supply<'_> {
 }
 
 impl Supply<'static> {
-    /// The text of the file at `path`, unpacked if it is gzipped, and about how many bytes it has.
-    pub(crate) fn open(path: &Path) -> io::Result<(Self, u64)> {
+    /// The text of the file at `path`, of so much of it, unpacked if it is gzipped, and about how many bytes it has.
+    pub(crate) fn open(path: &Path, extent: Extent) -> io::Result<(Self, u64)> {
         let mut file = File::open(path)?;
-        let length = file.metadata()?.len();
+        let length = file.metadata()?.len().min(extent.most());
         let mut magic = [0; 2];
         let gzip = file.read(&mut magic)? == 2 && magic == [0x1f, 0x8b];
         io::Seek::rewind(&mut file)?;
-        let hashed = Hashed { file, hash: Sha256::new() };
+        let hashed = Hashed { file: file.take(extent.most()), bytes: 0, hash: Sha256::new() };
         // Decimal numbers pack to a third or a quarter; what is wrong with the guess costs nothing but address space.
         Ok(if gzip {
             (Self::Gzip(Box::new(MultiGzDecoder::new(hashed))), length.saturating_mul(4))
@@ -86,15 +88,16 @@ impl Supply<'_> {
         matches!(self, Self::Gzip(_))
     }
 
-    /// SHA-256 of the bytes as they are stored, of all of them: what has not been read yet is read for it.
-    pub(crate) fn sha256(self) -> io::Result<String> {
+    /// SHA-256 of the bytes as they are stored, of all of them, and how many they are: what has not been read yet is
+    /// read for it.
+    pub(crate) fn sha256(self) -> io::Result<(String, u64)> {
         let mut hashed = match self {
-            Self::Bytes(bytes) => return Ok(hex(&Sha256::digest(bytes))),
+            Self::Bytes(bytes) => return Ok((hex(&Sha256::digest(bytes)), bytes.len() as u64)),
             Self::Plain(file) => file,
             Self::Gzip(file) => file.into_inner(),
         };
         io::copy(&mut hashed, &mut io::sink())?;
-        Ok(hex(&hashed.hash.finalize()))
+        Ok((hex(&hashed.hash.finalize()), hashed.bytes))
     }
 }
 
@@ -257,11 +260,12 @@ mod tests {
         let packed = packer.finish().unwrap();
         for (bytes, gzip) in [(&b"1,2\n3,4\n"[..], false), (&packed, true)] {
             std::fs::write(&path, bytes).unwrap();
-            let (supply, _) = Supply::open(&path).unwrap();
+            let (supply, _) = Supply::open(&path, Extent::All).unwrap();
             assert_eq!(supply.is_gzip(), gzip);
             let mut feed = Feed::new(supply, Check::Utf8);
             assert_eq!(waves(&mut feed, 2).unwrap().concat(), b"1,2\n3,4\n");
-            assert_eq!(feed.into_supply().sha256().unwrap(), super::super::text::sha256(bytes, Wanted::always()));
+            let expected = (super::super::text::sha256(bytes, Wanted::always()), bytes.len() as u64);
+            assert_eq!(feed.into_supply().sha256().unwrap(), expected);
         }
     }
 }

@@ -15,7 +15,7 @@ use super::timing::{Timing, choose};
 use super::tokens::inner;
 use super::waves::{Failure, parse};
 use super::{
-    Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Fault, Faults, LoadOptions, Source, TimeAxis,
+    Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Extent, Fault, Faults, LoadOptions, Source, TimeAxis,
     TimeFormat, Track, Wanted, notes, printable, rows,
 };
 use crate::error::{Error, Result};
@@ -26,7 +26,7 @@ use crate::error::{Error, Result};
 /// [`Error::Io`] when the source cannot be read; [`Error::Input`] when it is no table of numbers, with the line and
 /// the way out; [`Error::Usage`] when a column of the options is not there.
 pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
-    load_while(source, options, Wanted::always())
+    load_extent(source, options, Extent::All, Wanted::always())
 }
 
 /// [`load()`] that ends as soon as nobody waits for the record any more.
@@ -34,16 +34,25 @@ pub fn load(source: &Source, options: &LoadOptions) -> Result<Track> {
 /// # Errors
 /// As [`load()`]; [`Error::Stopped`] when the record is no longer wanted.
 pub fn load_while(source: &Source, options: &LoadOptions, wanted: Wanted<'_>) -> Result<Track> {
+    load_extent(source, options, Extent::All, wanted)
+}
+
+/// [`load_while`] of a part of the source.
+///
+/// # Errors
+/// As [`load_while`].
+pub fn load_extent(source: &Source, options: &LoadOptions, extent: Extent, wanted: Wanted<'_>) -> Result<Track> {
+    let extent = extent.settled(source);
     let still = || if wanted.still() { Ok(()) } else { Err(Error::Stopped) };
     if let Source::File(path) = source
-        && let Some(track) = streamed(path, options, wanted)
+        && let Some(track) = streamed(path, options, extent, wanted)
     {
         still()?;
         return Ok(track);
     }
     still()?;
     let path = path_of(source);
-    let stored = stored(source)?;
+    let stored = stored(source, extent)?;
     still()?;
     let text = Text::of(&stored, &path, options.encoding)?;
     still()?;
@@ -62,7 +71,8 @@ pub fn load_while(source: &Source, options: &LoadOptions, wanted: Wanted<'_>) ->
         Failure::Open(quote) => open_quote(&path, quote),
         Failure::Unfit(_) => Error::input(&path, "it cannot be read", "copy or fetch the file again"),
     })?;
-    let track = understood.track(source, sha256, parsed, (options, wanted), &|| Ok(feed(text.body())));
+    let track =
+        understood.track(source, (sha256, stored.len() as u64), parsed, (options, wanted), &|| Ok(feed(text.body())));
     still()?;
     track
 }
@@ -149,7 +159,7 @@ impl Understood {
     pub(super) fn track(
         &self,
         source: &Source,
-        sha256: String,
+        (sha256, bytes): (String, u64),
         (mut body, moments): Parsed,
         (options, wanted): (&LoadOptions, Wanted<'_>),
         again: Again<'_>,
@@ -165,6 +175,7 @@ impl Understood {
         let mut track = Track {
             source: source.clone(),
             sha256,
+            bytes,
             dialect: self.dialect(options),
             rows: body.rows,
             time: time_axis(head, timing, body.rows),

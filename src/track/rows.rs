@@ -7,7 +7,7 @@ use super::feed::Feed;
 use super::head::open_quote;
 use super::text::{Text, path_of, sha256, stored};
 use super::tokens::{Layout, OpenQuote, Record, RecordKind, Records, Span, is_empty, line_end_of, split};
-use super::{Dialect, Track, Wanted};
+use super::{Dialect, Extent, Track, Wanted};
 use crate::error::{Error, Result};
 
 /// Reads the source again and calls `f` with each data row (from 0) and its cells, in order.
@@ -30,17 +30,17 @@ pub fn for_each_row(track: &Track, mut f: impl FnMut(usize, &Cells<'_>) -> Resul
     })
 }
 
-/// The bytes of the source, which are those that were loaded.
+/// The bytes of the source that were loaded, unchanged; what was appended since is left out.
 ///
 /// # Errors
 /// [`Error::Input`] when they are not.
 pub(crate) fn unchanged(track: &Track) -> Result<Cow<'_, [u8]>> {
-    let stored = stored(&track.source)?;
+    let stored = stored(&track.source, Extent::First(track.bytes))?;
     if sha256(&stored, Wanted::always()) != track.sha256 {
         return Err(Error::input(
             path_of(&track.source),
             "the file changed since it was loaded",
-            "load it again, or put the old file back",
+            "load it again, or put the old file back; decisions can be saved without it",
         ));
     }
     Ok(stored)
@@ -69,6 +69,10 @@ pub(crate) struct Splitter {
 }
 
 impl Splitter {
+    pub(crate) fn new(layout: Layout) -> Self {
+        Self { layout, spans: Vec::new() }
+    }
+
     /// The cells of `record`.
     pub(crate) fn cells(&mut self, record: &Record<'_>) -> &[Span] {
         split(record.bytes, self.layout, &mut self.spans);
@@ -86,7 +90,7 @@ struct Walk {
 
 impl Walk {
     fn new(track: &Track, layout: Layout) -> Self {
-        Self { before: track.dialect.preamble, row: 0, splitter: Splitter { layout, spans: Vec::new() } }
+        Self { before: track.dialect.preamble, row: 0, splitter: Splitter::new(layout) }
     }
 
     /// Calls `f` with a record if it is a data row; false when no more are wanted.

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
+use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -10,7 +11,7 @@ use flate2::read::MultiGzDecoder;
 use memchr::{memchr, memchr_iter};
 use sha2::{Digest, Sha256};
 
-use super::{Encoding, Source, Wanted};
+use super::{Encoding, Extent, Source, Wanted};
 use crate::error::{Error, Result};
 
 /// A small packed file can unpack to a thousand times its size: more than this is no record that was packed by mistake
@@ -36,13 +37,16 @@ pub(crate) fn path_of(source: &Source) -> PathBuf {
     }
 }
 
-/// The bytes of a source as they are stored.
+/// The bytes of a source as they are stored, so many of them.
 ///
 /// # Errors
 /// [`Error::Io`] when the file cannot be read, [`Error::Input`] for a folder.
-pub(crate) fn stored(source: &Source) -> Result<Cow<'_, [u8]>> {
+pub(crate) fn stored(source: &Source, extent: Extent) -> Result<Cow<'_, [u8]>> {
     match source {
-        Source::BuiltIn { bytes, .. } => Ok(Cow::Borrowed(bytes)),
+        Source::BuiltIn { bytes, .. } => {
+            let end = usize::try_from(extent.most()).unwrap_or(usize::MAX).min(bytes.len());
+            Ok(Cow::Borrowed(&bytes[..end]))
+        }
         Source::File(path) if path.is_dir() => {
             Err(Error::input(path, "this is a folder", "name one of the files in it"))
         }
@@ -52,8 +56,16 @@ pub(crate) fn stored(source: &Source) -> Result<Cow<'_, [u8]>> {
             "this is a pipe or a device, not a file",
             "save the record as a file first; samples that keep arriving are for `wildpoint stream`",
         )),
-        Source::File(path) => std::fs::read(path).map(Cow::Owned).map_err(Error::io("read", path)),
+        Source::File(path) => read(path, extent).map(Cow::Owned).map_err(Error::io("read", path)),
     }
+}
+
+fn read(path: &Path, extent: Extent) -> std::io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    let size = file.metadata()?.len().min(extent.most());
+    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default());
+    file.take(extent.most()).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// SHA-256 in lower-case hexadecimal; that of a part when it is no longer wanted.

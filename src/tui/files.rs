@@ -32,15 +32,26 @@ pub struct Request {
     pub source: Source,
     /// How a record is loaded.
     pub options: LoadOptions,
-    /// True when the record that is open is loaded anew: setup and decisions stay where they still fit.
-    pub again: bool,
+    /// What becomes of the work on the record that is open.
+    pub purpose: Purpose,
+}
+
+/// What becomes of the work on the record that is open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// It makes room for something else.
+    Other,
+    /// The record is loaded in another way: setup and decisions stay where they still fit.
+    Correct,
+    /// Rows that were added to the record are taken in: everything stays.
+    TakeIn,
 }
 
 impl Request {
     /// For a file, with everything recognised.
     #[must_use]
     pub fn file(path: PathBuf) -> Self {
-        Self { source: Source::File(path), options: LoadOptions::default(), again: false }
+        Self { source: Source::File(path), options: LoadOptions::default(), purpose: Purpose::Other }
     }
 }
 
@@ -140,7 +151,7 @@ impl Desk {
             Task::Open { ticket, request } => {
                 self.awaited.store(ticket, Ordering::Relaxed);
                 let stop = Stop::when_superseded(Arc::clone(&self.awaited), ticket);
-                let keep = request.again.then(|| open::Keep::of(model));
+                let keep = (request.purpose != Purpose::Other).then(|| open::Keep::of(model));
                 let look = Look { theme: model.theme, glyphs: model.glyphs };
                 self.answer(move || {
                     Some(News::Opened { ticket, result: open::open(request, keep, look, &stop).map(Box::new) })

@@ -81,6 +81,7 @@ impl Journal {
         let header = Header {
             record: record(&model.track.source),
             sha256: model.track.sha256.clone(),
+            bytes: Some(model.track.bytes),
             rows: model.track.rows,
             base: None,
             begun: entries.len(),

@@ -9,6 +9,7 @@ use super::consensus::Consensus;
 use super::files::{News, Task};
 use crate::error::{Error, Result};
 use crate::plot::Drawn;
+use crate::track::Standing;
 
 /// Something that happened.
 #[derive(Debug)]
@@ -73,6 +74,8 @@ pub enum Message {
     },
     /// Something about files that was asked for.
     Files(News),
+    /// The file of the record is not as it was at the last look.
+    Record(Standing),
     /// The journal can no longer be written.
     Unjournalled(Error),
 }
@@ -139,11 +142,14 @@ pub enum OutputKind {
     Report,
     /// The session.
     Session,
+    /// The decisions alone: they need no record.
+    Decisions,
 }
 
 impl OutputKind {
     /// All of them, in the order of the dialog.
-    pub const ALL: [Self; 5] = [Self::Cleaned, Self::Flags, Self::Diagnostics, Self::Report, Self::Session];
+    pub const ALL: [Self; 6] =
+        [Self::Cleaned, Self::Flags, Self::Diagnostics, Self::Report, Self::Session, Self::Decisions];
 
     /// Its name, what a file of it is called after the name of the record, and what it is in a line.
     fn row(self) -> (&'static str, &'static str, &'static str) {
@@ -153,6 +159,7 @@ impl OutputKind {
             Self::Diagnostics => ("diagnostics", ".diagnostics.csv", "a row for every sample"),
             Self::Report => ("report", ".html", "a page with pictures, settings and flags (.md: Markdown)"),
             Self::Session => ("session", ".wild.toml", "what gives this result again: settings and decisions"),
+            Self::Decisions => ("decisions", ".decisions.csv", "a row for every decision; needs no record"),
         }
     }
 

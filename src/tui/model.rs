@@ -17,7 +17,7 @@ use crate::param::Param;
 use crate::repair;
 use crate::review::History;
 use crate::session::{Edit, Plan, Session};
-use crate::track::{Channel, Series, Track};
+use crate::track::{Channel, Series, Standing, Track};
 
 mod channel;
 mod dialog;
@@ -36,6 +36,8 @@ pub use review::{Group, Reviewing, Sort, Unit};
 pub struct Model {
     /// The record.
     pub track: Arc<Track>,
+    /// What has become of its file since it was loaded.
+    pub standing: Standing,
     /// The document.
     pub session: Session,
     /// What was done to it.
@@ -140,6 +142,7 @@ impl Model {
         let channels = session.plans.par_iter().map(|plan| ChannelState::new(&track, plan, file.is_some())).collect();
         Self {
             track,
+            standing: Standing::Same,
             session,
             history: History::default(),
             revision: 0,

@@ -15,9 +15,12 @@ use crate::job::Worker;
 use crate::plot::Drawn;
 use crate::report;
 use crate::review::Decisions;
-use crate::session::{Analysed, Detection, Session, Setup, detect, detect_together, document, settle, write_cleaned};
+use crate::session::{
+    Analysed, Detection, Session, Setup, decisions, detect, detect_together, document, document_without_record, settle,
+    write_cleaned,
+};
 use crate::stop::Stop;
-use crate::track::{Outputs, Samples, Track};
+use crate::track::{Lost, Outputs, Samples, Standing, Track};
 
 /// A channel to judge.
 #[derive(Debug)]
@@ -167,7 +170,7 @@ pub fn write(track: Arc<Track>, session: Session, errand: Errand, known: Known, 
 
 fn save(track: &Track, mut session: Session, errand: &Errand, known: &Known) -> Result<String> {
     let analysed = Analysed::of(&session, track, &Stop::never())?;
-    let text = document(&mut session, track, &analysed, &errand.path)?;
+    let text = session_text(&mut session, track, &analysed, &errand.path)?;
     let mut files = outputs_of(track, errand.overwrite || known.still(&errand.path));
     files.stage(&errand.path, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", &errand.path)))?;
     files.commit()?;
@@ -175,7 +178,29 @@ fn save(track: &Track, mut session: Session, errand: &Errand, known: &Known) -> 
     let channels = session.plans.iter().map(|p| p.channel.as_str()).collect::<Vec<_>>().join(", ");
     let decisions: usize = session.plans.iter().map(|p| p.decisions.len()).sum();
     let path = errand.path.display();
-    Ok(format!("saved {path}: {channels}; {} flagged, {}", analysed.flagged(), counted(decisions, "decision")))
+    let since = since(session.data.record_was, track);
+    Ok(format!("saved {path}: {channels}; {} flagged, {}{since}", analysed.flagged(), counted(decisions, "decision")))
+}
+
+/// The text of the session file; without what only the record tells where that is lost.
+fn session_text(session: &mut Session, track: &Track, analysed: &Analysed, path: &Path) -> Result<String> {
+    document(session, track, analysed, path).or_else(|e| match Standing::of(track) {
+        Standing::Lost(lost) => document_without_record(session, track, lost, path),
+        Standing::Same | Standing::Grown { .. } => Err(e),
+    })
+}
+
+/// What is to be known of the record that a file was made of.
+fn since(record_was: Option<Lost>, track: &Track) -> String {
+    match (record_was, Standing::of(track)) {
+        (Some(lost), _) => {
+            format!(" · without the record, which {}: no result is in it", Standing::Lost(lost).words())
+        }
+        (None, Standing::Grown { rows }) if rows > 0 => {
+            format!(" · about the first {}; {rows} added since", counted(track.rows, "row"))
+        }
+        _ => String::new(),
+    }
 }
 
 /// Writes outputs of a result, all of them or none; gives a few words for the user.
@@ -192,8 +217,9 @@ pub fn export(track: &Track, session: &Session, outputs: &[Output], overwrite: b
             OutputKind::Flags => files.stage(path, |w| report::flags(track, session, &analysed, w)),
             OutputKind::Diagnostics => files.stage(path, |w| report::diagnostics(track, session, &analysed, w)),
             OutputKind::Report => files.stage(path, |w| report::report(track, session, &analysed, path, w)),
+            OutputKind::Decisions => files.stage(path, |w| decisions(track, session, w)),
             OutputKind::Session => {
-                let text = document(&mut session.clone(), track, &analysed, path)?;
+                let text = session_text(&mut session.clone(), track, &analysed, path)?;
                 files.stage(path, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", path)))
             }
         }?;
@@ -208,7 +234,7 @@ pub fn export(track: &Track, session: &Session, outputs: &[Output], overwrite: b
             } else {
                 format!(", {} added", counted(changes.rows.len(), "row"))
             };
-            format!("wrote {}: {n} cell{s} changed{rows}", path.display())
+            format!("wrote {}: {n} cell{s} changed{rows}{}", path.display(), since(None, track))
         }
         [only] => format!("wrote {}: {}", only.path.display(), only.kind.name()),
         several => {

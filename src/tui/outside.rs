@@ -16,6 +16,7 @@ use super::model::{Model, Overlay};
 use super::office::{self, Errand, Judge};
 use super::terminal::Screen;
 use super::update::update;
+use super::watch::Watch;
 use crate::error::Result;
 use crate::job::Worker;
 
@@ -45,6 +46,7 @@ pub(super) struct Outside {
     folder: Option<PathBuf>,
     desk: Desk,
     known: Known,
+    _watch: Option<Watch>,
 }
 
 impl Outside {
@@ -57,7 +59,8 @@ impl Outside {
         let desk = Desk::new(sender.clone(), folder.as_deref());
         let known = Known::default();
         sessions(model).into_iter().for_each(|file| known.read(file));
-        Self { worker, advisor, advising: false, poller, sender, messages, journal, folder, desk, known }
+        let watch = Watch::over(&model.track, sender.clone());
+        Self { worker, advisor, advising: false, poller, sender, messages, journal, folder, desk, known, _watch: watch }
     }
 
     /// The same for a model that has taken the place of another, whose work is saved or not wanted.

@@ -29,6 +29,7 @@ mod overlay;
 mod palette;
 mod pictures;
 pub(super) mod queue;
+mod record;
 mod recover;
 mod review;
 mod rows;
@@ -104,6 +105,10 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
         }
         Message::Written { what, path, result } => files::written(model, &what, &path, result),
         Message::Files(news) => dialog::news(model, news),
+        Message::Record(standing) => {
+            record::stands(model, standing);
+            Vec::new()
+        }
         Message::Unjournalled(e) => {
             let text = e.to_string().replace("\n  ", "; ");
             model.say(Tone::Error, format!("the journal ends here, :w saves: {text}"));

@@ -157,6 +157,7 @@ pub(crate) fn made_of(seconds: Vec<f64>, channels: [(&str, Vec<f64>); 2]) -> Tra
     Track {
         source: Source::BuiltIn { name: "fuzz", bytes: Arc::from(&[][..]) },
         sha256: String::new(),
+        bytes: 0,
         dialect: Dialect {
             delimiter: Delimiter::Byte(b','),
             quote: None,

@@ -1,10 +1,10 @@
 //! The tables of flags and decisions, with their evidence.
 
-use super::super::flags::{Evidence, InRun, evidence};
 use super::super::inspection::short;
-use super::super::{time_text, walk};
 use super::Table;
 use crate::error::Result;
+use crate::session::flags::{Evidence, InRun, evidence};
+use crate::session::table::{time_text, walk};
 use crate::session::{Analysed, Session};
 use crate::track::{Track, number_text};
 
@@ -31,7 +31,7 @@ pub(super) fn tables(track: &Track, session: &Session, analysed: &Analysed) -> R
         let Some(found) = evidence(session, channel, row, position) else { return Ok(()) };
         let plan = channel.plan;
         if tables[plan].rows.len() < MOST {
-            tables[plan].marks.push(found.state);
+            tables[plan].marks.push(found.mark.as_ref().and_then(crate::plot::state));
             tables[plan].rows.push(cells_of(&found, time_text(track, row, cells)));
         } else {
             rest[plan].0 += 1;

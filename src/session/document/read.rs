@@ -7,11 +7,12 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::{Spanned, Table};
 
-use super::FORMAT;
+use super::{FORMAT, OLDEST};
 use crate::error::{Error, Result};
 use crate::param::{Kind, Param, Settings, Value, find};
 use crate::repair;
 use crate::review::{Decision, Decisions, Ruling};
+use crate::session::digest::{Digest, WrittenDigest};
 use crate::session::{Data, Plan, Recorded, Session, Setup, folder_of, method_of_id, tidied};
 use crate::track::{LoadOptions, Source, Worded};
 
@@ -40,14 +41,14 @@ pub(in crate::session) struct WrittenDecision {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Document {
-    #[serde(rename = "format")]
-    _format: i64,
+    format: i64,
     #[serde(rename = "program", default)]
     _program: String,
     data: WrittenData,
     #[serde(default)]
     channel: Vec<Spanned<WrittenChannel>>,
     result: Option<WrittenResult>,
+    digest: Option<WrittenDigest>,
 }
 
 #[derive(Deserialize)]
@@ -55,7 +56,9 @@ struct Document {
 struct WrittenData {
     file: String,
     sha256: String,
+    bytes: Option<u64>,
     rows: Spanned<usize>,
+    record_was: Option<Spanned<String>>,
     #[serde(default)]
     row_check: Option<String>,
     /// From here on: how the record is loaded, where the user had to say it.
@@ -93,6 +96,7 @@ struct WrittenChannel {
 struct WrittenResult {
     flagged: usize,
     clean_sha256: String,
+    flags_sha256: Option<String>,
 }
 
 /// A session file as read, with the texts its decisions were made on (for each plan, in the order of its rows).
@@ -101,6 +105,8 @@ pub(in crate::session) struct Read {
     pub(in crate::session) texts: Vec<Vec<WrittenDecision>>,
     /// The line that gives the number of rows.
     pub(in crate::session) rows_line: Option<usize>,
+    /// What was changed in the file since it was saved, in words; none where the file does not tell.
+    pub(in crate::session) altered: Option<Vec<String>>,
 }
 
 /// Reads a session file. The record itself is not opened.
@@ -140,9 +146,9 @@ fn parse_with_texts(path: &Path, text: &str) -> Result<Read> {
     };
     let loose: Table = toml::from_str(text).map_err(broken)?;
     match loose.get("format").and_then(toml::Value::as_integer) {
-        Some(FORMAT) => {}
+        Some(OLDEST..=FORMAT) => {}
         Some(newer) if newer > FORMAT => {
-            let what = format!("format = {newer}: this program reads format {FORMAT}");
+            let what = format!("format = {newer}: this program reads format {OLDEST} to {FORMAT}");
             return Err(fault(
                 path,
                 key_line(text, "format"),
@@ -151,7 +157,7 @@ fn parse_with_texts(path: &Path, text: &str) -> Result<Read> {
             ));
         }
         _ => {
-            let what = "format: a session file starts with `format = 1`".to_owned();
+            let what = "format: a session file starts with `format = 2`".to_owned();
             return Err(fault(path, key_line(text, "format"), what, "is it the right file?"));
         }
     }
@@ -182,9 +188,19 @@ fn parse_with_texts(path: &Path, text: &str) -> Result<Read> {
         ));
     }
     let rows_line = reader.line(document.data.rows.span());
+    let newer = document.data.bytes.is_some() || document.data.record_was.is_some();
+    let altered = match document.digest {
+        None if document.format == OLDEST && !newer => None,
+        None => Some(vec!["the digest was removed since the session was saved".to_owned()]),
+        Some(written) => Some(Digest::of_table(loose).differences(&written)),
+    };
     let data = reader.data(document.data)?;
-    let result = document.result.map(|r| Recorded { flagged: r.flagged, clean_sha256: r.clean_sha256 });
-    Ok(Read { session: Session { data, plans, result }, texts, rows_line })
+    let result = document.result.map(|r| Recorded {
+        flagged: r.flagged,
+        clean_sha256: r.clean_sha256,
+        flags_sha256: r.flags_sha256,
+    });
+    Ok(Read { session: Session { data, plans, result }, texts, rows_line, altered })
 }
 
 struct Reader<'a> {
@@ -212,7 +228,15 @@ impl Reader<'_> {
             day_first: data.day_first,
             channels: Vec::new(),
         };
-        Ok(Data { source, sha256: data.sha256, rows: data.rows.into_inner(), row_check: data.row_check, options })
+        Ok(Data {
+            source,
+            sha256: data.sha256,
+            bytes: data.bytes,
+            rows: data.rows.into_inner(),
+            record_was: self.told("record_was", data.record_was)?,
+            row_check: data.row_check,
+            options,
+        })
     }
 
     /// A value of the loader that is told by a word.

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use super::FORMAT;
 use crate::error::{Error, Result};
 use crate::param::{Param, Settings, Value};
-use crate::session::{Data, Plan, Session, folder_of};
+use crate::session::{Data, Digest, Plan, Session, folder_of};
 use crate::track::{Source, Worded, is_hidden};
 
-/// The session file for a session that lies at `path`. `texts` gives, for each plan, the texts of time and value of
+/// The session file, with its digest, for a session that lies at `path`. `texts` gives, for each plan, the texts of time and value of
 /// each decided row, in the order of the rows.
 ///
 /// # Errors
@@ -26,7 +26,13 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
     line("\n[data]".into());
     line(format!("file = {}", quoted(&record)));
     line(format!("sha256 = {}", quoted(&session.data.sha256)));
+    if let Some(bytes) = session.data.bytes {
+        line(format!("bytes = {bytes}"));
+    }
     line(format!("rows = {}", session.data.rows));
+    if let Some(word) = session.data.record_was.and_then(Worded::word) {
+        line(format!("record_was = {}", quoted(word)));
+    }
     loading(&session.data).into_iter().for_each(&mut line);
     for (plan, texts) in session.plans.iter().zip(texts) {
         line("\n[[channel]]".into());
@@ -43,7 +49,11 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
         line("\n[result]".into());
         line(format!("flagged = {}", result.flagged));
         line(format!("clean_sha256 = {}", quoted(&result.clean_sha256)));
+        if let Some(flags) = &result.flags_sha256 {
+            line(format!("flags_sha256 = {}", quoted(flags)));
+        }
     }
+    out.push_str(&Digest::of(path, &out)?.lines());
     Ok(out)
 }
 
@@ -134,7 +144,7 @@ fn inline(settings: &Settings) -> String {
     format!("{{ {} }}", settings.iter().map(one).collect::<Vec<_>>().join(", "))
 }
 
-fn quoted(text: &str) -> String {
+pub(in crate::session) fn quoted(text: &str) -> String {
     // A basic string, so that every text stays on one line of its own.
     let mut out = String::from('"');
     for c in text.chars() {

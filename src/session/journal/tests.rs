@@ -12,13 +12,29 @@ const ROWS: usize = 50;
 fn session() -> Session {
     let plan = |name: &str| Plan { channel: name.into(), setup: Setup::standard(), decisions: Decisions::default() };
     let source = Source::File("/nowhere/record.csv".into());
-    let data = Data { source, sha256: "ab".into(), rows: ROWS, row_check: None, options: LoadOptions::default() };
+    let data = Data {
+        source,
+        sha256: "ab".into(),
+        bytes: None,
+        rows: ROWS,
+        record_was: None,
+        row_check: None,
+        options: LoadOptions::default(),
+    };
     Session { data, plans: ["v", "alt \"m\"\n", "高度"].map(plan).into(), result: None }
 }
 
 fn header(begun: usize) -> Header {
     let base = Some(Base { path: "/nowhere/a b.toml".into(), sha256: "cd".into() });
-    Header { record: "/nowhere/record.csv".into(), sha256: "ab".into(), rows: ROWS, base, begun, carried: 0 }
+    Header {
+        record: "/nowhere/record.csv".into(),
+        sha256: "ab".into(),
+        rows: ROWS,
+        bytes: None,
+        base,
+        begun,
+        carried: 0,
+    }
 }
 
 /// Something an analyst does.

@@ -19,6 +19,8 @@ struct WrittenHeader {
     program: String,
     record: String,
     sha256: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    bytes: Option<u64>,
     rows: usize,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     session: Option<WrittenBase>,
@@ -94,6 +96,7 @@ pub(super) fn header_text(header: &Header) -> String {
         program: concat!("wildpoint ", env!("CARGO_PKG_VERSION")).into(),
         record: header.record.clone(),
         sha256: header.sha256.clone(),
+        bytes: header.bytes,
         rows: header.rows,
         session: header.base.clone().map(|b| WrittenBase { path: b.path, sha256: b.sha256 }),
         begun: header.begun,
@@ -105,8 +108,8 @@ pub(super) fn header_text(header: &Header) -> String {
 pub(super) fn header_of(text: &str) -> Option<Header> {
     let w: WrittenHeader = serde_json::from_str(text).ok()?;
     let base = w.session.map(|b| Base { path: b.path, sha256: b.sha256 });
-    let WrittenHeader { record, sha256, rows, begun, carried, .. } = w;
-    (w.format == FORMAT).then_some(Header { record, sha256, rows, base, begun, carried })
+    let WrittenHeader { record, sha256, bytes, rows, begun, carried, .. } = w;
+    (w.format == FORMAT).then_some(Header { record, sha256, bytes, rows, base, begun, carried })
 }
 
 /// The JSON of an entry, on one line.

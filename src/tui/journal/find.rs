@@ -9,8 +9,8 @@ use super::super::words::counted;
 use super::files::{ENDING, take};
 use super::writer::sha256_of;
 use crate::session::Session;
-use crate::session::journal::{Entry, Journal, decode};
-use crate::track::{Track, printable};
+use crate::session::journal::{Entry, Header, Journal, decode};
+use crate::track::{Track, covered, printable};
 
 /// A journal larger than this is none.
 const LARGEST: u64 = 1 << 30;
@@ -40,6 +40,8 @@ pub struct Found {
     pub session_changed: bool,
     /// A channel of it that is not loaded: it cannot be taken in without losing something.
     pub missing: Option<String>,
+    /// How many rows were added to the record since.
+    pub added: usize,
 }
 
 /// What a search has found.
@@ -68,8 +70,13 @@ pub(super) fn search(folder: &Path, record: &str, track: &Track, session: &Sessi
             continue;
         }
         let changes = journal.changes();
-        if journal.header.sha256 != track.sha256 || journal.header.rows != track.rows {
-            if changes > 0 {
+        let content = Content::of(&journal, track);
+        if !matches!(content, Content::Same | Content::Start { .. }) {
+            if changes > 0 && content == Content::Longer {
+                let (what, are) = (counted(changes, "unsaved change"), if changes == 1 { "is" } else { "are" });
+                let what = format!("{what} {are} kept that were made with rows added to the record");
+                search.notes.push(format!("{what}: :reload takes these in and offers the changes"));
+            } else if changes > 0 {
                 let (what, are) = (counted(changes, "unsaved change"), if changes == 1 { "is" } else { "are" });
                 let what = format!("{what} to an earlier content of this record {are} kept in");
                 search.notes.push(format!("{what} {}", printable(&path.display().to_string())));
@@ -81,9 +88,37 @@ pub(super) fn search(folder: &Path, record: &str, track: &Track, session: &Sessi
             let _ = std::fs::remove_file(&path);
             continue;
         }
-        search.found.push((found(path, time, journal, session), held));
+        let added = if let Content::Start { added } = content { added } else { 0 };
+        search.found.push((Found { added, ..found(path, time, journal, session) }, held));
     }
     search
+}
+
+/// How the record of a journal stands to the one that is open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Content {
+    /// It is the same.
+    Same,
+    /// It is the start of it, to which so many rows were added.
+    Start { added: usize },
+    /// It has more rows, which are in the file and were not loaded.
+    Longer,
+    /// It is another one.
+    Other,
+}
+
+impl Content {
+    fn of(journal: &Journal, track: &Track) -> Self {
+        let Header { sha256, bytes, rows, .. } = &journal.header;
+        if *sha256 == track.sha256 {
+            return if *rows == track.rows { Self::Same } else { Self::Other };
+        }
+        match covered(&track.source, sha256, *bytes) {
+            Ok(Some(bytes)) if bytes < track.bytes && *rows <= track.rows => Self::Start { added: track.rows - rows },
+            Ok(Some(bytes)) if bytes > track.bytes => Self::Longer,
+            _ => Self::Other,
+        }
+    }
 }
 
 fn found(path: PathBuf, time: SystemTime, journal: Journal, session: &Session) -> Found {
@@ -102,6 +137,7 @@ fn found(path: PathBuf, time: SystemTime, journal: Journal, session: &Session) -
         session: base.map(|b| PathBuf::from(b.path)),
         session_changed,
         missing,
+        added: 0,
     }
 }
 

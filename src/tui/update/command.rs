@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::super::message::{Effect, OutputKind};
 use super::super::model::{Model, Tone};
 use super::files::default_report;
-use super::{Action, act, command_line, dialog, files, jump, pictures, review, show, tune};
+use super::{Action, act, command_line, dialog, files, jump, pictures, record, review, show, tune};
 use crate::error::nearest;
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
@@ -47,6 +47,13 @@ pub static COMMANDS: &[Command] = &[
     }),
     command("loader", "", "correct how the record is loaded: columns, units, track ids, delimiter", |m, _| {
         Ok(dialog::correct(m))
+    }),
+    command("reload", "", "take in rows that were added to the record; every decision stays", |m, _| {
+        Ok(record::take_in(m))
+    }),
+    command("decisions", "[NAME]", "write the decisions as a table, also when the record is gone", |m, a| {
+        let name = path(a).unwrap_or_else(|| files::beside(&m.track.source, OutputKind::Decisions.ending()));
+        Ok(dialog::export_one(m, OutputKind::Decisions, name, false))
     }),
     command("export", "[NAME]", "write the cleaned file; without a name, choose what is written", |m, a| {
         Ok(export(m, a, OutputKind::Cleaned, false))

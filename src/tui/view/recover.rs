@@ -32,6 +32,13 @@ fn lines(model: &Model, found: &Found, more: usize) -> Vec<Line<'static>> {
         let since = if found.session_changed { ", which has changed since" } else { "" };
         note(format!("It went on from {}{since}.", printable(&name)));
     }
+    if found.added > 0 {
+        note(format!(
+            "Since then {} {} added to the record.",
+            counted(found.added, "row"),
+            if found.added == 1 { "was" } else { "were" }
+        ));
+    }
     if !found.complete {
         note("Its last line is torn: that change is lost.".into());
     }

@@ -9,7 +9,7 @@ use super::super::model::Model;
 use super::super::picture::Picture;
 use super::super::plot::FlagState;
 use super::{clear, fit, thousands};
-use crate::track::printable;
+use crate::track::{Standing, printable};
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     clear(area, buffer);
@@ -29,7 +29,12 @@ fn left_side(model: &Model, width: usize) -> Line<'static> {
     let place = if of > 1 { format!(" ({at}/{of})") } else { String::new() };
     let unit = printable(&model.channel().unit);
     let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
-    let size = format!(" · {} samples", thousands(model.series().len()));
+    let since = match model.standing {
+        Standing::Same | Standing::Grown { rows: 0 } => String::new(),
+        Standing::Grown { rows } => format!(" +{} rows", thousands(rows)),
+        Standing::Lost(_) => format!(", record {}", model.standing.words().trim_start_matches("was ")),
+    };
+    let size = format!(" · {} samples{since}", thousands(model.series().len()));
     let fixed = channel.chars().count() + place.len() + 5;
     let room = width.saturating_sub(fixed + unit.chars().count());
     let mut spans = vec![Span::raw(" ")];

@@ -3,7 +3,7 @@
 use ratatui::crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
-use super::super::super::files::{Glance, Request, Seen, Task};
+use super::super::super::files::{Glance, Purpose, Request, Seen, Task};
 use super::super::super::message::Effect;
 use super::super::super::model::{Dialog, LoaderForm, Model, Overlay};
 use super::super::overlay::edit;
@@ -67,7 +67,8 @@ pub(super) fn key(model: &mut Model, mut form: LoaderForm, key: KeyEvent) -> Vec
     match key.code {
         KeyCode::Enter => {
             let LoaderForm { source, options, again, .. } = &form;
-            let request = Request { source: source.clone(), options: options.clone(), again: *again };
+            let purpose = if *again { Purpose::Correct } else { Purpose::Other };
+            let request = Request { source: source.clone(), options: options.clone(), purpose };
             return opening::ask(model, request, Some(Box::new(Dialog::Loader(form))));
         }
         KeyCode::Down | KeyCode::Tab => form.choice = (form.choice + 1) % n,

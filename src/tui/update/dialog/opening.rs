@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::super::super::files::{Request, Task};
+use super::super::super::files::{Purpose, Request, Task};
 use super::super::super::message::Effect;
 use super::super::super::model::{Dialog, Model, Overlay, Tone, Waiting};
 use super::super::super::words::counted;
@@ -18,8 +18,12 @@ pub(in super::super) fn open(model: &mut Model, path: PathBuf) -> Vec<Effect> {
 
 /// Asks when something is not saved, otherwise begins.
 pub(super) fn ask(model: &mut Model, request: Request, back: Option<Box<Dialog>>) -> Vec<Effect> {
-    // Loading anew keeps what fits: only decisions can be lost by that.
-    let at_stake = !request.again || model.session.plans.iter().any(|p| !p.decisions.is_empty());
+    let at_stake = match request.purpose {
+        Purpose::Other => true,
+        // What fits is kept: only decisions can be lost.
+        Purpose::Correct => model.session.plans.iter().any(|p| !p.decisions.is_empty()),
+        Purpose::TakeIn => false,
+    };
     if model.unsaved() && at_stake {
         return keep(model, Dialog::Unsaved(request));
     }

@@ -30,6 +30,7 @@ fn found(name: &str) -> Found {
         complete: true,
         session: Some("/nowhere/a.toml".into()),
         session_changed: false,
+        added: 0,
         missing: None,
     }
 }

@@ -1,0 +1,32 @@
+//! The table of decisions: what the analyst said, with what it was said about. It is made from memory, so that it can
+//! be written when the record is gone.
+
+use std::io::Write;
+
+use super::Session;
+use super::save::known;
+use super::table::write_row;
+use crate::error::{Error, Result};
+use crate::track::{Track, inert};
+
+/// The columns, in order.
+const HEADER: [&str; 6] = ["row", "time", "channel", "raw", "verdict", "note"];
+
+/// Writes the decisions as CSV: row (from 1), time and value as the program knows them, verdict and note.
+///
+/// # Errors
+/// [`Error::Io`] when the table cannot be written.
+pub fn decisions(track: &Track, session: &Session, out: &mut dyn Write) -> Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    write_row(&mut writer, &HEADER)?;
+    for plan in &session.plans {
+        for (row, decision) in plan.decisions.iter() {
+            let (time, value) = known(track, &plan.channel, row as usize);
+            let time = if track.time.column.is_some() { time } else { row.to_string() };
+            let number = (u64::from(row) + 1).to_string();
+            let (channel, note) = (inert(&plan.channel), inert(&decision.note));
+            write_row(&mut writer, &[&number, &time, &channel, &value, decision.ruling.verdict().word(), &note])?;
+        }
+    }
+    writer.flush().map_err(Error::io("write", "the decisions"))
+}

@@ -1,0 +1,133 @@
+//! What the tables of a result share: the walk over rows and channels, and the texts of their cells.
+
+use std::io::Write;
+
+use super::{Analysed, Outcome, Place, Session};
+use crate::error::{Error, Result};
+use crate::method::Verdict;
+use crate::track::{Cells, Series, Track, for_each_row, inert};
+
+/// One channel of a result, walked row by row.
+#[derive(Debug)]
+pub struct Walk<'a> {
+    /// Its present samples.
+    pub series: Series<'a>,
+    /// Its name.
+    pub name: &'a str,
+    /// Its result.
+    pub outcome: &'a Outcome,
+    /// Index of its plan.
+    pub plan: usize,
+    next: usize,
+    /// The rows of its target that are still to come, in a table of several tracks.
+    own: Option<&'a [u32]>,
+}
+
+impl Walk<'_> {
+    /// True when `row` is one of the channel's own; rows must be asked for in ascending order, each once.
+    fn owns(&mut self, row: usize) -> bool {
+        let Some(own) = self.own else { return true };
+        match own.split_first() {
+            Some((first, rest)) if *first as usize == row => {
+                self.own = Some(rest);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// The position of the sample of `row`; rows must be asked for in ascending order.
+    pub fn position(&mut self, row: usize) -> Option<usize> {
+        (self.next < self.series.len() && self.series.row(self.next) == row).then(|| {
+            self.next += 1;
+            self.next - 1
+        })
+    }
+
+    /// The value that the cleaned file has for an outcome's sample; none where the cell is empty.
+    #[must_use]
+    pub fn clean(&self, position: usize) -> Option<f64> {
+        let fix = self.outcome.fix(position);
+        fix.map_or(Some(self.series.y[position]), |v| v.is_finite().then_some(v))
+    }
+
+    /// The value that fills the missing sample of `row`, if any.
+    #[must_use]
+    pub fn fill(&self, row: usize) -> Option<f64> {
+        let place = Place::Cell(row);
+        let at = self.outcome.fills.binary_search_by_key(&place, |f| f.place).ok()?;
+        self.outcome.fills.get(at).map(|f| f.value)
+    }
+
+    /// The measured value of a row that is not present (no usable time), if its cell is a number.
+    #[must_use]
+    pub fn raw(&self, track: &Track, row: usize, position: Option<usize>) -> Option<f64> {
+        match position {
+            Some(position) => Some(self.series.y[position]),
+            None => track.channel(self.name).map(|c| c.value(row)).filter(|v| v.is_finite()),
+        }
+    }
+}
+
+/// Calls `visit` with every row and channel of a result (of several tracks, with each row its own channels), in the order
+/// of the file and of the session.
+///
+/// # Errors
+/// When the input cannot be read again, or is no longer the one that was loaded; what `visit` gives.
+pub fn walk(
+    track: &Track,
+    session: &Session,
+    analysed: &Analysed,
+    mut visit: impl FnMut(usize, &Cells<'_>, &mut Walk<'_>) -> Result<()>,
+) -> Result<()> {
+    let mut channels: Vec<Walk<'_>> = Vec::new();
+    for (plan, (index, samples, outcome)) in analysed.channels.iter().enumerate() {
+        let channel = &track.channels[*index];
+        channels.push(Walk {
+            series: samples.series(channel, &track.time),
+            name: &session.plans[plan].channel,
+            outcome,
+            plan,
+            next: 0,
+            own: channel.target.as_ref().map(|t| &*t.rows),
+        });
+    }
+    for_each_row(track, |row, cells| {
+        channels.iter_mut().filter_map(|c| c.owns(row).then_some(c)).try_for_each(|channel| visit(row, cells, channel))
+    })
+}
+
+/// The text of the time of a row, as the file has it (but no formula); the sample number where there is no time column.
+#[must_use]
+pub fn time_text(track: &Track, row: usize, cells: &Cells<'_>) -> String {
+    track.time.column.map_or_else(|| row.to_string(), |c| inert(&cells.text(c)).into_owned())
+}
+
+/// A number as the tables have it, empty for none.
+#[must_use]
+pub fn cell(value: Option<f64>) -> String {
+    value.filter(|v| v.is_finite()).map(crate::track::number_text).unwrap_or_default()
+}
+
+/// The word for what holds of a sample; that for a missing one without a position.
+#[must_use]
+pub fn verdict_word(outcome: &Outcome, position: Option<usize>) -> &'static str {
+    position.map_or(Verdict::Missing, |p| outcome.verdict(p)).word()
+}
+
+fn csv_error(e: csv::Error) -> Error {
+    let text = e.to_string();
+    let source = match e.into_kind() {
+        csv::ErrorKind::Io(source) => source,
+        _ => std::io::Error::other(text),
+    };
+    Error::Io { action: "write", path: "the table".into(), source }
+}
+
+/// Writes a row of a table.
+///
+/// # Errors
+/// [`Error::Io`].
+pub fn write_row(writer: &mut csv::Writer<&mut dyn Write>, fields: &[&str]) -> Result<()> {
+    writer.write_record(fields).map_err(csv_error)
+}
