@@ -111,7 +111,7 @@ fn print_json(out: &mut dyn Write, value: &impl serde::Serialize) -> Result<Endi
 }
 
 fn inspect(file: &Path, options: &Load, json: bool, out: &mut dyn Write) -> Result<Ending> {
-    let track = load(&Source::File(file.to_path_buf()), &options.options(None))?;
+    let track = load(&Source::of(file)?, &options.options(None))?;
     let inspection = Inspection::of(&track);
     if json { print_json(out, &inspection) } else { print(out, &inspection.text()) }
 }
@@ -121,7 +121,7 @@ fn one_channel(file: &Path, options: &Load, rate: Option<&str>) -> Result<(Track
     if options.channel.len() > 1 {
         return Err(Error::usage("several channels were named", "name one with --channel"));
     }
-    let track = load(&Source::File(file.to_path_buf()), &options.options(rate))?;
+    let track = load(&Source::of(file)?, &options.options(rate))?;
     let wanted = |c: &Channel| match options.channel.first() {
         Some(name) => track.means(name, c),
         None => !rate.is_some_and(|rate| track.means(rate, c)),
@@ -144,6 +144,8 @@ fn tell(outputs: &OutputArgs, summary: &crate::report::Summary, out: &mut dyn Wr
         print_json(out, summary)
     } else if outputs.quiet {
         Ok(Ending::Done)
+    } else if outputs.takes_standard_output() {
+        print(&mut std::io::stderr(), &summary.text())
     } else {
         print(out, &summary.text())
     }

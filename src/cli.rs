@@ -1,6 +1,6 @@
 //! The command line: what can be typed, and what it means.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::method::shared::MAX_GAP;
 use crate::repair;
 use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
-use crate::track::{Delimiter, Encoding, LoadOptions, TimeUnit, Worded};
+use crate::track::{DASH, Delimiter, Encoding, LoadOptions, TimeUnit, Worded};
 
 mod experiments;
 
@@ -49,6 +49,9 @@ pub struct Cli {
     /// Which configuration to take.
     #[command(flatten)]
     pub config: ConfigArgs,
+    /// Memory that records and results may take, as in 500M and 4G [default: half of what the machine has].
+    #[arg(long, value_name = "SIZE", global = true, value_parser = memory_size)]
+    pub memory: Option<u64>,
     /// Keep no journal: what is not saved is lost when the workbench is killed.
     #[arg(long)]
     pub no_journal: bool,
@@ -165,6 +168,19 @@ pub enum Command {
     },
     /// Print the manual page.
     Man,
+}
+
+impl Command {
+    /// True when it prints nothing but errors.
+    #[must_use]
+    pub fn is_quiet(&self) -> bool {
+        match self {
+            Self::Clean { outputs, .. } | Self::Replay { outputs, .. } => {
+                outputs.quiet && !outputs.json && !outputs.takes_standard_output()
+            }
+            _ => false,
+        }
+    }
 }
 
 /// How to load a record.
@@ -290,6 +306,30 @@ pub struct OutputArgs {
     pub quiet: bool,
 }
 
+impl OutputArgs {
+    /// True when one of the outputs is standard output.
+    #[must_use]
+    pub fn takes_standard_output(&self) -> bool {
+        self.on_standard_output(None) > 0
+    }
+
+    /// That standard output is one thing at most.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] when it is not.
+    pub fn check_standard_output(&self, session: Option<&Path>) -> Result<()> {
+        match self.on_standard_output(session) + usize::from(self.json) {
+            0 | 1 => Ok(()),
+            _ => Err(Error::usage("`-` is standard output, which takes one thing", "give the others names")),
+        }
+    }
+
+    fn on_standard_output(&self, session: Option<&Path>) -> usize {
+        let named = [&self.output, &self.flags, &self.diagnostics, &self.report].map(|path| path.as_deref());
+        named.into_iter().chain([session]).flatten().filter(|path| *path == Path::new(DASH)).count()
+    }
+}
+
 /// Which values a method starts with.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum PresetArg {
@@ -375,6 +415,10 @@ fn pair(text: &str) -> std::result::Result<(String, String), String> {
         Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
         _ => Err("KEY=VALUE is wanted, k=4.5 say".into()),
     }
+}
+
+fn memory_size(text: &str) -> std::result::Result<u64, String> {
+    crate::memory::parse(text).ok_or_else(|| "a size is wanted, 500M or 4G say".to_owned())
 }
 
 fn size(text: &str) -> std::result::Result<(u16, u16), String> {

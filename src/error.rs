@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::memory::{Full, words};
+
 /// What every fallible function of the library returns.
 pub type Result<T> = std::result::Result<T, Error>;
 
@@ -75,6 +77,18 @@ pub enum Error {
         /// How many rows.
         what: String,
     },
+    /// Something takes more memory than the program may use.
+    #[error(
+        "{subject}: this needs more than the {} of memory that the program may use\n  allow more with --memory, or give \
+         it less to do: fewer columns (--channel), a part of the file",
+        words(full.limit)
+    )]
+    Memory {
+        /// The file, or what is to be done.
+        subject: String,
+        /// The limit.
+        full: Full,
+    },
     /// Work was abandoned because nobody waits for it any more.
     #[error("the work was stopped before it ended\n  run it again")]
     Stopped,
@@ -85,6 +99,12 @@ impl Error {
     pub fn io(action: &'static str, path: impl AsRef<Path>) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.as_ref().to_path_buf();
         move |source| Self::Io { action, path, source }
+    }
+
+    /// An [`Error::Memory`] for the file `path`.
+    pub fn memory(path: impl AsRef<Path>) -> impl FnOnce(Full) -> Self {
+        let subject = shown(path.as_ref());
+        move |full| Self::Memory { subject, full }
     }
 
     /// An [`Error::Usage`].

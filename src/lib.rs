@@ -8,6 +8,7 @@ pub mod error;
 pub mod experiment;
 pub mod job;
 pub mod math;
+pub mod memory;
 pub mod method;
 pub mod param;
 pub mod plot;

@@ -1,16 +1,18 @@
 //! Dispatch and exit status.
 
 use std::io::{IsTerminal, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
 use wildpoint::batch::{self, Ending};
 use wildpoint::cli::{Cli, Color, ConfigArgs, Glyphs as GlyphChoice, Task};
 use wildpoint::error::{Error, Result};
+use wildpoint::memory;
 use wildpoint::report::Summary;
 use wildpoint::session::{Analysed, Session, open_all};
 use wildpoint::stop::Stop;
-use wildpoint::track::{Source, Wanted, load, printable_lines, take_unfinished_away};
+use wildpoint::track::{DASH, Source, Wanted, load, printable_lines, take_unfinished_away};
 use wildpoint::tui::config::{self, Config};
 use wildpoint::tui::files::is_session;
 use wildpoint::tui::journal::folder;
@@ -29,6 +31,9 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
+    if let Some(bytes) = cli.memory {
+        memory::set_limit(bytes);
+    }
     let stdout = std::io::stdout();
     let ended = match cli.command.take() {
         Some(Task::Keys(args)) => configured(&args).and_then(|config| {
@@ -36,6 +41,10 @@ fn main() -> ExitCode {
             let written = stdout.lock().write_all(listing.as_bytes()).map(|()| Ending::Done);
             written.map_err(Error::io("write", "standard output"))
         }),
+        Some(Task::Batch(command)) if output_is_closed() && !command.is_quiet() => {
+            let what = "standard output is closed: what the command says would be lost";
+            Err(Error::usage(what, "give it somewhere to go; with > /dev/null it is dropped on purpose"))
+        }
         Some(Task::Batch(command)) => {
             batch::end_tidily();
             let mut out = std::io::BufWriter::new(stdout.lock());
@@ -68,6 +77,16 @@ fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Whether standard output was closed before the program began. Its runtime then opens `/dev/null` in its place for
+/// reading and writing, as no shell does, so that writing to it fails no more.
+fn output_is_closed() -> bool {
+    let null = std::fs::read_link("/proc/self/fd/1").is_ok_and(|to| to == Path::new("/dev/null"));
+    let about = std::fs::read_to_string("/proc/self/fdinfo/1").unwrap_or_default();
+    let flags = about.lines().find_map(|line| line.strip_prefix("flags:"));
+    // The last octal digit: 0 reads, 1 writes, 2 does both.
+    null && flags.is_some_and(|flags| flags.trim().ends_with('2'))
 }
 
 /// A file that may grow no further (`ulimit -f`) is an error of the write that is told, not an end without a word that
@@ -110,6 +129,10 @@ fn opening(cli: &Cli) -> Result<Opening> {
         None => Source::demo(),
         Some(path) if is_session(path) => {
             return Ok(Opening::from((open_all(path, Wanted::always())?, path.clone())));
+        }
+        Some(path) if path == Path::new(DASH) => {
+            let what = "the workbench needs a record that it can find again";
+            return Err(Error::usage(what, "save standard input as a file, and give its name"));
         }
         Some(path) => Source::File(path.clone()),
     };

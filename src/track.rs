@@ -6,6 +6,8 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use crate::memory::Share;
+
 mod axis;
 mod body;
 mod built_in;
@@ -34,6 +36,7 @@ mod rows;
 mod series;
 mod shape;
 mod sniff;
+mod spool;
 mod stamp;
 mod standing;
 mod streamed;
@@ -64,6 +67,7 @@ pub use printable::{printable, printable_json, printable_lines};
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use series::{Samples, Series, lost_samples};
+pub use spool::{DASH, Spool};
 pub use standing::{Lost, Standing, covered};
 pub use targets::Target;
 pub(crate) use text::hex;
@@ -84,6 +88,8 @@ pub enum Source {
         /// The bytes, in the form of a CSV file.
         bytes: Arc<[u8]>,
     },
+    /// Standard input, in a file that is there as long as this.
+    Input(Spool),
 }
 
 /// A record as it was loaded.
@@ -113,6 +119,8 @@ pub struct Track {
     pub faults: Faults,
     /// What the user should know before trusting the record, in plain words.
     pub notes: Vec<String>,
+    /// The memory that it takes.
+    pub share: Arc<Share>,
 }
 
 /// How a text file lays out its cells.

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// The layers, lowest first; modules of one line may know each other.
 const LAYERS: &[&[&str]] = &[
+    &["memory"],
     &["error", "wrapped"],
     &["math"],
     &["track"],

@@ -23,10 +23,12 @@ pub(super) fn run(
 ) -> Result<Ending> {
     set_threads(shared.threads)?;
     let setup = shared.setup()?;
+    outputs.check_standard_output(save_session)?;
     if suggested {
         suggest::check(shared)?;
     }
-    let work = |file: &Path, target: &Target| one(file, (shared, suggested), &setup, target);
+    let all: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
+    let work = |file: &Path, target: &Target| one(file, (shared, suggested), &setup, (target, &all));
     let targets = targets(files, outputs, save_session, file_name)?;
     if let ([file], [target]) = (files, targets.as_slice()) {
         return tell(outputs, &work(file, target)?, out);
@@ -37,7 +39,12 @@ pub(super) fn run(
     set::tell(files, &results, outputs, out)
 }
 
-fn one(file: &Path, (shared, suggested): (&Shared, bool), setup: &Setup, target: &Target) -> Result<Summary> {
+fn one(
+    file: &Path,
+    (shared, suggested): (&Shared, bool),
+    setup: &Setup,
+    (target, inputs): (&Target, &[&Path]),
+) -> Result<Summary> {
     let outputs = &target.outputs;
     let mut options = shared.load.options(shared.rate.as_deref());
     if let Some(reference) = &shared.reference
@@ -46,7 +53,7 @@ fn one(file: &Path, (shared, suggested): (&Shared, bool), setup: &Setup, target:
     {
         options.channels.push(reference.clone());
     }
-    let track = load(&Source::File(file.to_path_buf()), &options)?;
+    let track = load(&Source::of(file)?, &options)?;
     let mut session = Session::new(&track, shared.load.options(None), setup);
     // A rate channel that was loaded beside the named ones is not judged.
     if !shared.load.channel.is_empty() {
@@ -60,9 +67,8 @@ fn one(file: &Path, (shared, suggested): (&Shared, bool), setup: &Setup, target:
     if let Some(reference) = &shared.reference {
         summary.compare_with(&track, &analysed, reference)?;
     }
-    let inputs: Vec<&Path> = track.source.path().into_iter().collect();
     target.make_folders()?;
-    let mut files = Outputs::new(outputs.force, &inputs);
+    let mut files = Outputs::new(outputs.force, inputs).or_standard_output();
     stage(&mut files, outputs, &track, &session, &analysed, &mut summary)?;
     if let Some(path) = &target.session {
         let text = suggest::noted(&document(&mut session, &track, &analysed, path)?, &notes);

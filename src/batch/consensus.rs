@@ -87,7 +87,7 @@ pub(super) fn written(
     let analysed = Analysed { channels: vec![(index, samples.clone(), outcome)] };
     let mut summary = Summary::of(track, &session, &analysed);
     let inputs: Vec<&Path> = track.source.path().into_iter().collect();
-    let mut files = Outputs::new(args.outputs.force, &inputs);
+    let mut files = Outputs::new(args.outputs.force, &inputs).or_standard_output();
     clean::stage(&mut files, &args.outputs, track, &session, &analysed, &mut summary)?;
     files.commit()?;
     Ok(row)

@@ -14,7 +14,7 @@ pub(super) fn simulate(args: &SimulateArgs, out: &mut dyn Write) -> Result<Endin
     let experiment = experiment::find(&args.experiment)?;
     let text = experiment.csv(args.seed.unwrap_or(experiment.seed), args.runs);
     let Some(path) = &args.output else { return print(out, &text) };
-    let mut files = Outputs::new(args.force, &[]);
+    let mut files = Outputs::new(args.force, &[]).or_standard_output();
     files.stage(path, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", path)))?;
     files.commit()?;
     Ok(Ending::Done)

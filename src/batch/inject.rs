@@ -10,7 +10,7 @@ use crate::cli::InjectArgs;
 use crate::error::{Error, Result};
 use crate::experiment::{Injection, inject};
 use crate::track::{
-    CellChange, Cells, Channel, NewColumn, Outputs, Series, Source, Track, for_each_row, load, printable, widen,
+    CellChange, Cells, Channel, DASH, NewColumn, Outputs, Series, Source, Track, for_each_row, load, printable, widen,
 };
 
 /// What was done, for programs.
@@ -28,7 +28,10 @@ struct Injected<'a> {
 }
 
 pub(super) fn run(args: &InjectArgs, out: &mut dyn Write) -> Result<Ending> {
-    let track = load(&Source::File(args.file.clone()), &args.load.options(None))?;
+    let track = load(&Source::of(&args.file)?, &args.load.options(None))?;
+    if args.json && args.output == Path::new(DASH) {
+        return Err(Error::usage("--json and -o - both mean standard output", "give the output a name"));
+    }
     let channel = channel_of(&track)?;
     let (raw, truth) = (format!("{}_raw", channel.name), format!("{}_truth", channel.name));
     if let Some(there) = track.columns.iter().find(|c| c.name == raw || c.name == truth) {
@@ -48,7 +51,7 @@ pub(super) fn run(args: &InjectArgs, out: &mut dyn Write) -> Result<Ending> {
     let columns =
         [NewColumn { name: raw.clone(), cell: &raw_cell }, NewColumn { name: truth.clone(), cell: &truth_cell }];
     let inputs: [&Path; 1] = [&args.file];
-    let mut files = Outputs::new(args.force, &inputs);
+    let mut files = Outputs::new(args.force, &inputs).or_standard_output();
     files.stage(&args.output, |w| widen(&track, &changes, &columns, w))?;
     files.commit()?;
     let told = Injected {
@@ -62,7 +65,12 @@ pub(super) fn run(args: &InjectArgs, out: &mut dyn Write) -> Result<Ending> {
         wild: injection.wild.len(),
         steps: injection.steps.len(),
     };
-    if args.json { print_json(out, &told) } else { print(out, &told.text(track.truth.is_some())) }
+    let words = told.text(track.truth.is_some());
+    match (args.output == Path::new(DASH), args.json) {
+        (true, _) => print(&mut std::io::stderr(), &words),
+        (false, true) => print_json(out, &told),
+        (false, false) => print(out, &words),
+    }
 }
 
 impl Injected<'_> {

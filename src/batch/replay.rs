@@ -20,17 +20,21 @@ pub(super) fn run_all(
     outputs: &OutputArgs,
     out: &mut dyn Write,
 ) -> Result<Ending> {
+    outputs.check_standard_output(None)?;
     let targets = targets(sessions, outputs, None, cleaned_name)?;
-    let talks = !outputs.quiet && !outputs.json;
+    // No output takes the place of a session or a record, be it that of another session.
+    let records: Vec<PathBuf> = sessions.iter().filter_map(|path| record_of(path)).collect();
+    let inputs: Vec<&Path> = sessions.iter().chain(&records).map(PathBuf::as_path).collect();
+    let talks = !outputs.quiet && !outputs.json && !outputs.takes_standard_output();
     if let ([session], [target]) = (sessions, targets.as_slice()) {
-        let (summary, notes) = run(session, accepted, target)?;
+        let (summary, notes) = run(session, accepted, (target, &inputs))?;
         if talks {
             tell_notes(session, &notes, out)?;
         }
         return tell(outputs, &summary, out);
     }
     let jobs: Vec<(&PathBuf, Target)> = sessions.iter().zip(targets).collect();
-    let results = set::for_all(&jobs, !talks, |(session, target)| run(session, accepted, target));
+    let results = set::for_all(&jobs, !talks, |(session, target)| run(session, accepted, (target, &inputs)));
     let mut summaries = Vec::with_capacity(results.len());
     for (session, result) in sessions.iter().zip(results) {
         if let (true, Ok((_, notes))) = (talks, &result) {
@@ -44,13 +48,17 @@ pub(super) fn run_all(
 /// A cleaned file is named after its session, with the ending of the record.
 fn cleaned_name(session: &Path) -> String {
     let stem = session.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    // A session that cannot be read is told as an error when it is run.
-    let record = read(session).ok().and_then(|s| s.data.source.path().map(file_name));
+    let record = record_of(session).map(|path| file_name(&path));
     let ending = record.as_deref().and_then(|name| {
         let (rest, packed) = name.strip_suffix(".gz").map_or((name, ""), |rest| (rest, ".gz"));
         rest.rsplit_once('.').map(|(_, ending)| format!(".{ending}{packed}"))
     });
     stem + ending.as_deref().unwrap_or(".csv")
+}
+
+/// The record of a session. One that cannot be read is told as an error when it is run.
+fn record_of(session: &Path) -> Option<PathBuf> {
+    read(session).ok()?.data.source.path().map(Path::to_path_buf)
 }
 
 fn tell_notes(session: &Path, notes: &[String], out: &mut dyn Write) -> Result<()> {
@@ -59,15 +67,13 @@ fn tell_notes(session: &Path, notes: &[String], out: &mut dyn Write) -> Result<(
     })
 }
 
-fn run(path: &Path, accepted: Accepted, target: &Target) -> Result<(Summary, Vec<String>)> {
+fn run(path: &Path, accepted: Accepted, (target, inputs): (&Target, &[&Path])) -> Result<(Summary, Vec<String>)> {
     let outputs = &target.outputs;
     let opened = open(path, accepted)?;
     let analysed = Analysed::of(&opened.session, &opened.track, &Stop::never())?;
     let mut summary = Summary::of(&opened.track, &opened.session, &analysed);
-    let mut inputs: Vec<&Path> = opened.track.source.path().into_iter().collect();
-    inputs.push(path);
     target.make_folders()?;
-    let mut files = Outputs::new(outputs.force, &inputs);
+    let mut files = Outputs::new(outputs.force, inputs).or_standard_output();
     clean::stage(&mut files, outputs, &opened.track, &opened.session, &analysed, &mut summary)?;
     files.commit()?;
     let mut notes: Vec<String> = opened.appended.map(Grown::words).into_iter().collect();

@@ -9,6 +9,9 @@ use crate::track::printable;
 /// The style of pages and pictures.
 pub(super) const STYLE: &str = include_str!("html/style.css");
 
+/// What a browser may do for the page: nothing is fetched and nothing runs, whatever a name in it tries.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+
 /// Text made safe to stand in an element or an attribute.
 pub(super) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -30,6 +33,7 @@ pub(super) fn html(page: &Page) -> String {
     let title = escaped(&page.title);
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>wildpoint: {title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
          <h1>{title}</h1>\n<p class=\"outcome\">{}</p>\n",
@@ -89,13 +93,13 @@ fn channel(section: &Section, out: &mut String) {
     out.push_str("<h3>Settings that matter</h3>\n");
     table(&section.settings, out);
     out.push_str("<h3>Flags and decisions</h3>\n");
+    if !section.rest.is_empty() {
+        let _ = writeln!(out, "<p>{}</p>", escaped(&section.rest));
+    }
     if section.flags.rows.is_empty() {
         out.push_str("<p>No sample is flagged, suspect or decided on.</p>\n");
     } else {
         table(&section.flags, out);
-    }
-    if !section.rest.is_empty() {
-        let _ = writeln!(out, "<p>{}</p>", escaped(&section.rest));
     }
     out.push_str("</section>\n");
 }

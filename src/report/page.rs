@@ -57,7 +57,7 @@ pub(super) struct Section {
     pub(super) figures: Vec<Figure>,
     /// Flags and decisions with their evidence.
     pub(super) flags: Table,
-    /// What the table leaves out; empty when it has all.
+    /// How much of the table is listed, and where the rest is; empty when all is listed.
     pub(super) rest: String,
 }
 
@@ -81,7 +81,14 @@ impl Page {
         let inspection = Inspection::of(track);
         let summary = Summary::of(track, session, analysed);
         let mut saved = session.clone();
-        let text = document(&mut saved, track, analysed, path)?;
+        // Of standard input there can be no session.
+        let text = match track.source {
+            Source::Input(_) => {
+                saved.result = Some(analysed.recorded(session, track)?);
+                None
+            }
+            _ => Some(document(&mut saved, track, analysed, path)?),
+        };
         let clean_sha256 = saved.result.map(|r| r.clean_sha256).unwrap_or_default();
         let tables = flagged::tables(track, session, analysed)?;
         let sections = summary.channels.iter().enumerate().zip(tables);
@@ -104,7 +111,7 @@ impl Page {
             channels: sections.collect(),
             command_note: record::command_note(command.is_some()),
             command: command.unwrap_or_else(|| "wildpoint replay session.toml -o cleaned.csv".into()),
-            session: Some(text).filter(|text| text.len() <= LONGEST_SESSION),
+            session: text.filter(|text| text.len() <= LONGEST_SESSION),
         })
     }
 }

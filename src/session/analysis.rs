@@ -6,12 +6,13 @@ use std::sync::Arc;
 use super::Setup;
 use crate::error::{Error, Result};
 use crate::math::pieces::{self, PIECE};
+use crate::memory::Share;
 use crate::method::noise::{self, Scales};
 use crate::method::{Damaged, Gated, Judged, Rate, Segment, Together, Verdict, judge_segments, segments};
 use crate::repair::{self, Damage, Gap};
 use crate::review::{Decision, Decisions};
 use crate::stop::{Stop, Stopped};
-use crate::track::{Channel, Samples, Series, Track};
+use crate::track::{Channel, Samples, Series, Track, printable};
 
 mod gaps;
 mod outcome;
@@ -30,13 +31,15 @@ pub struct Detection {
     pub scales: Vec<Scales>,
     /// One entry per present sample.
     pub judged: Gated,
+    /// The memory that it takes.
+    pub share: Arc<Share>,
 }
 
 /// Runs the method of `setup` over a channel. With `previous`, a detection of the same channel that differs in a
 /// multiplier that only gates, its scores are used again; the result is the same to the last bit.
 ///
 /// # Errors
-/// [`Error::Stopped`]; [`Error::Usage`] when the method needs a rate channel and has none.
+/// [`Error::Stopped`]; [`Error::Memory`]; [`Error::Usage`] when the method needs a rate channel and has none.
 pub fn detect(
     track: &Track,
     channel: &Channel,
@@ -46,18 +49,38 @@ pub fn detect(
     stop: &Stop,
 ) -> Result<Detection> {
     let series = samples.series(channel, &track.time);
+    let share = room(&series, channel)?;
     if let Some(previous) = previous
         && let Some(judged) = regated(previous, setup, &series, stop)?
     {
         let (segments, scales) = (previous.segments.clone(), previous.scales.clone());
-        return Ok(Detection { setup: setup.clone(), segments, scales, judged });
+        return Ok(Detection { setup: setup.clone(), segments, scales, judged, share: kept(share) });
     }
     let rate = rate_channel(track, channel, setup)?.map(|c| Series::of(c, &track.time));
     let rate = rate.as_ref().map(|r| Rate { t: &r.t, y: &r.y });
     let segments = segments(&series, &setup.settings, stop)?;
     let scales = noise::scales(&series, &segments, &setup.settings, stop)?;
     let judged = judge_segments(setup.method, &series, (&segments, &scales), rate, &setup.settings, stop)?;
-    Ok(Detection::new(setup.clone(), segments, scales, judged))
+    Ok(Detection { share: kept(share), ..Detection::new(setup.clone(), segments, scales, judged) })
+}
+
+/// Bytes that a method takes for each sample while it works, and of those what it keeps: verdict, expected value,
+/// tolerance, and what a repair of its own has to know.
+const OF_SAMPLE: u64 = 100;
+const KEPT_OF_SAMPLE: u64 = 32;
+
+/// The memory to judge a channel.
+fn room(series: &Series<'_>, channel: &Channel) -> Result<Share> {
+    let subject = || format!("judging the {} samples of {}", series.len(), printable(&channel.name));
+    let share = Share::of((series.len() as u64).saturating_mul(OF_SAMPLE));
+    share.map_err(|full| Error::Memory { subject: subject(), full })
+}
+
+/// What is kept of it.
+fn kept(mut share: Share) -> Arc<Share> {
+    // Less than before is never refused.
+    let _ = share.set(share.bytes() / OF_SAMPLE * KEPT_OF_SAMPLE);
+    Arc::new(share)
 }
 
 impl Detection {
@@ -65,7 +88,7 @@ impl Detection {
     #[must_use]
     pub fn new(setup: Setup, segments: Vec<Range<usize>>, scales: Vec<Scales>, judged: Judged) -> Self {
         let k = setup.method.gate(&setup.settings).map(|key| setup.settings.real(key));
-        Self { setup, segments, scales, judged: Gated::new(judged, k) }
+        Self { setup, segments, scales, judged: Gated::new(judged, k), share: Arc::default() }
     }
 
     /// The same detection under a setup that differs in the repair alone.
@@ -125,13 +148,15 @@ pub fn detect_together(
 ) -> Result<Vec<Detection>> {
     let series: Vec<Series<'_>> =
         channels.iter().map(|(channel, samples)| samples.series(channel, &track.time)).collect();
+    let shares: Vec<Share> =
+        series.iter().zip(channels).map(|(s, (channel, _))| room(s, channel)).collect::<Result<_>>()?;
     let series: Vec<&Series<'_>> = series.iter().collect();
     let parts = setup.method.judge_together(&series, &setup.settings, stop)?;
-    let detection = |part: Together| {
+    let detection = |(part, share): (Together, Share)| {
         let judged = part.judged.bounded(stop)?;
-        Ok(Detection::new(setup.clone(), part.segments, part.scales, judged))
+        Ok(Detection { share: kept(share), ..Detection::new(setup.clone(), part.segments, part.scales, judged) })
     };
-    parts.into_iter().map(detection).collect()
+    parts.into_iter().zip(shares).map(detection).collect()
 }
 
 /// Lets the decisions win over the detection, repairs the outliers that hold, and fills gaps.

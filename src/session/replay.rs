@@ -320,7 +320,7 @@ fn difference(session: &Session, track: &Track, misfit: Option<&Misfit>) -> Resu
 fn file_of(source: &Source) -> PathBuf {
     match source {
         Source::File(path) => path.clone(),
-        Source::BuiltIn { name, .. } => PathBuf::from(name),
+        other => PathBuf::from(other.name()),
     }
 }
 

@@ -5,6 +5,7 @@ use super::order::UNREADABLE;
 use super::timing::Timing;
 use super::tokens::Layout;
 use super::{Encoding, Fault};
+use crate::memory::{Full, Share};
 
 /// What is wanted of each row.
 #[derive(Debug)]
@@ -48,6 +49,8 @@ pub(crate) struct Body {
     pub(crate) empty_tail: usize,
     /// Lines of the chunk.
     pub(crate) lines: u64,
+    /// The memory of the columns.
+    pub(crate) share: Share,
 }
 
 impl Body {
@@ -61,6 +64,12 @@ impl Body {
             missing: vec![0; plan.slots.len()],
             ..Self::default()
         }
+    }
+
+    /// The memory that so many rows take, with the times that are made of their moments.
+    fn bytes(&self, rows: usize) -> u64 {
+        let times = if self.moments.is_some() { 2 } else { 1 };
+        (rows as u64).saturating_mul(8 * (self.numbers.len() as u64 + times))
     }
 
     /// Empty again, with its buffers.
@@ -107,11 +116,17 @@ impl Whole {
     }
 
     /// Adds the next chunks, which are empty then.
-    pub(crate) fn add(&mut self, parts: &mut [Body]) {
+    ///
+    /// # Errors
+    /// [`Full`] when there is no room for their rows.
+    pub(crate) fn add(&mut self, parts: &mut [Body]) -> Result<(), Full> {
+        let rows: usize = parts.iter().map(|p| p.rows + p.empty_tail).sum::<usize>() + self.body.empty_tail;
+        self.body.share.set(self.body.bytes(self.body.rows + rows))?;
         for part in parts {
             self.add_one(part);
             part.clear();
         }
+        Ok(())
     }
 
     fn add_one(&mut self, part: &mut Body) {

@@ -30,6 +30,7 @@ impl Source {
                 path.file_name().map_or_else(|| path.to_string_lossy(), |n| n.to_string_lossy()).into_owned()
             }
             Self::BuiltIn { name, .. } => (*name).to_owned(),
+            Self::Input(_) => "standard input".into(),
         }
     }
 
@@ -38,7 +39,7 @@ impl Source {
     pub fn path(&self) -> Option<&std::path::Path> {
         match self {
             Self::File(path) => Some(path),
-            Self::BuiltIn { .. } => None,
+            Self::BuiltIn { .. } | Self::Input(_) => None,
         }
     }
 }

@@ -14,7 +14,7 @@ pub enum Extent {
 impl Extent {
     /// The extent that stays the same while a file grows: all of it means all of it as it is now.
     pub(super) fn settled(self, source: &Source) -> Self {
-        match (self, source.path().and_then(|path| path.metadata().ok())) {
+        match (self, source.file().and_then(|path| path.metadata().ok())) {
             // Some file systems say 0 for files that they make while they are read.
             (Self::All, Some(about)) if about.is_file() && about.len() > 0 => Self::First(about.len()),
             _ => self,

@@ -10,6 +10,7 @@ use sha2::{Digest, Sha256};
 
 use super::text::hex;
 use super::{Extent, Wanted};
+use crate::memory::{Full, Share};
 
 /// Why a text cannot be read piece by piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,6 +19,8 @@ pub(crate) enum Unfit {
     NotUtf8,
     /// It cannot be read, or it is no text: reading it whole tells what and where.
     Unreadable,
+    /// A line is longer than there is memory.
+    Full(Full),
 }
 
 impl From<io::Error> for Unfit {
@@ -113,6 +116,8 @@ pub(crate) struct Feed<'a> {
     ended: bool,
     /// Asked before each read.
     wanted: Wanted<'a>,
+    /// What a line takes that is longer than a wave.
+    share: Share,
 }
 
 /// What a text must be.
@@ -139,13 +144,29 @@ impl<'a> Feed<'a> {
     /// A text from memory, which was checked before.
     pub(crate) fn of(text: &'a [u8], line_end: u8) -> Self {
         let wanted = Wanted::always();
-        Self { supply: Supply::Bytes(text), tail: Vec::new(), line_end, check: None, ended: false, wanted }
+        Self {
+            supply: Supply::Bytes(text),
+            tail: Vec::new(),
+            line_end,
+            check: None,
+            ended: false,
+            wanted,
+            share: Share::default(),
+        }
     }
 
     /// A text whose lines end with a line feed.
     pub(crate) fn new(supply: Supply<'a>, check: Check) -> Self {
         let wanted = Wanted::always();
-        Self { supply, tail: Vec::new(), line_end: b'\n', check: Some(check), ended: false, wanted }
+        Self {
+            supply,
+            tail: Vec::new(),
+            line_end: b'\n',
+            check: Some(check),
+            ended: false,
+            wanted,
+            share: Share::default(),
+        }
     }
 
     /// The same, read only for as long as it is wanted.
@@ -185,7 +206,11 @@ impl<'a> Feed<'a> {
             }
             match memrchr(self.line_end, wave) {
                 Some(at) => break at + 1,
-                None => wanted = wave.len() + size,
+                None => {
+                    wanted = wave.len() + size;
+                    // This wave, and the next while it is read.
+                    self.share.set(2 * wanted as u64).map_err(Unfit::Full)?;
+                }
             }
         };
         self.tail.extend_from_slice(&wave[end..]);

@@ -7,13 +7,15 @@ use super::number::Reading;
 use super::sniff::{Look, SAMPLE_BYTES, look, most_frequent, sniff};
 use super::text::Text;
 use super::tokens::{Layout, OpenQuote, Record, RecordKind, Records, split};
-use super::{LoadOptions, names, printable};
+use super::{Delimiter, LoadOptions, names, printable};
 use crate::error::{Error, Result};
 
 /// Rows that are looked at.
 const SAMPLE: usize = 200;
 /// Lines that may stand before the data, besides comments.
 const MOST_PREAMBLE: usize = 20;
+/// A row with more cells is no row of a table.
+const MOST_COLUMNS: usize = 100_000;
 /// Cells of a units row are shorter than this.
 const LONGEST_UNIT: usize = 16;
 
@@ -78,7 +80,7 @@ impl Head {
     pub(crate) fn of(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
         let (layout, decimal_comma) = sniff(text.body(), options);
         let reading = Reading::new(decimal_comma, &options.missing);
-        let (lines, comments) = first_lines(text, layout).map_err(|q| open_quote(path, q))?;
+        let (lines, comments) = first_lines(text, layout, path)?;
         let typed = typed_columns(&lines, &reading);
         let found = lines.iter().take(MOST_PREAMBLE + 1).position(|l| is_data(l, &typed, &reading));
         let Some(mut data) = found else { return Err(no_numbers(&lines, path)) };
@@ -146,11 +148,12 @@ impl Head {
 }
 
 /// The first data records that are not empty, and the comments before them.
-fn first_lines(text: &Text<'_>, layout: Layout) -> std::result::Result<(Vec<Line>, Vec<Line>), OpenQuote> {
+fn first_lines(text: &Text<'_>, layout: Layout, path: &Path) -> Result<(Vec<Line>, Vec<Line>)> {
     let mut lines = Vec::new();
     let mut comments = Vec::new();
     for record in Records::new(text.body(), layout) {
-        let record = record?;
+        let record = record.map_err(|q| open_quote(path, q))?;
+        refuse_wide(&record, layout, path)?;
         match record.kind {
             RecordKind::Data => {
                 let line = line_of(&record, layout, text);
@@ -170,6 +173,23 @@ fn first_lines(text: &Text<'_>, layout: Layout) -> std::result::Result<(Vec<Line
         }
     }
     Ok((lines, comments))
+}
+
+/// Refuses a row of more cells than any table has, before memory is taken for them.
+fn refuse_wide(record: &Record<'_>, layout: Layout, path: &Path) -> Result<()> {
+    let parts = match layout.delimiter {
+        Delimiter::Byte(delimiter) => memchr::memchr_iter(delimiter, record.bytes).count(),
+        Delimiter::Blanks => record.bytes.iter().filter(|b| b.is_ascii_whitespace()).count(),
+    };
+    if parts < MOST_COLUMNS {
+        return Ok(());
+    }
+    Err(Error::Input {
+        path: path.to_path_buf(),
+        line: Some(record.line),
+        what: format!("more than {MOST_COLUMNS} cells in a row"),
+        help: "name the --delimiter if it was taken for another; a table that wide is to be split by columns".into(),
+    })
 }
 
 fn line_of(record: &Record<'_>, layout: Layout, text: &Text<'_>) -> Line {

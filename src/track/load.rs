@@ -1,6 +1,7 @@
 //! Loading a record.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::body::{Body, Numbers, Plan};
 use super::feed::{Feed, Unfit};
@@ -44,11 +45,11 @@ pub fn load_while(source: &Source, options: &LoadOptions, wanted: Wanted<'_>) ->
 pub fn load_extent(source: &Source, options: &LoadOptions, extent: Extent, wanted: Wanted<'_>) -> Result<Track> {
     let extent = extent.settled(source);
     let still = || if wanted.still() { Ok(()) } else { Err(Error::Stopped) };
-    if let Source::File(path) = source
-        && let Some(track) = streamed(path, options, extent, wanted)
+    if let Some(path) = source.file()
+        && let Some(track) = streamed((source, path), options, extent, wanted)
     {
         still()?;
-        return Ok(track);
+        return track;
     }
     still()?;
     let path = path_of(source);
@@ -69,6 +70,7 @@ pub fn load_extent(source: &Source, options: &LoadOptions, extent: Extent, wante
     still()?;
     let (parsed, _) = parsed.map_err(|failure| match failure {
         Failure::Open(quote) => open_quote(&path, quote),
+        Failure::Full(full) | Failure::Unfit(Unfit::Full(full)) => Error::memory(&path)(full),
         Failure::Unfit(_) => Error::input(&path, "it cannot be read", "copy or fetch the file again"),
     })?;
     let track =
@@ -185,6 +187,7 @@ impl Understood {
             faults: cell_faults(&columns, roles, &body),
             columns,
             notes: Vec::new(),
+            share: Arc::new(body.share),
         };
         let targets = match roles.track {
             Some(column) => Some(Targets::divide(&mut track, column, again, (head, options))?),

@@ -9,6 +9,7 @@ use std::sync::{Mutex, PoisonError};
 use flate2::{Compression, GzBuilder};
 use tempfile::NamedTempFile;
 
+use super::DASH;
 use crate::error::{Error, Result};
 use faults::{Disk, point};
 use identity::{FileId, Protected};
@@ -31,6 +32,10 @@ pub struct Outputs {
     force: bool,
     inputs: Vec<Protected>,
     staged: Vec<Staged>,
+    /// True where `-` is no file.
+    dash: bool,
+    /// What goes to standard output.
+    printed: Option<File>,
 }
 
 #[derive(Debug)]
@@ -46,7 +51,14 @@ impl Outputs {
     /// No outputs yet. `force` overwrites existing files, except `inputs`, whatever the paths that lead to them.
     #[must_use]
     pub fn new(force: bool, inputs: &[&Path]) -> Self {
-        Self { force, inputs: inputs.iter().map(|path| Protected::new(path)).collect(), staged: Vec::new() }
+        let inputs = inputs.iter().map(|path| Protected::new(path)).collect();
+        Self { force, inputs, staged: Vec::new(), dash: false, printed: None }
+    }
+
+    /// The same where `-` means standard output, to which it is written with [`Outputs::commit`], after the files.
+    #[must_use]
+    pub fn or_standard_output(self) -> Self {
+        Self { dash: true, ..self }
     }
 
     /// Writes the content of the file `path` through `write`, packed where its name ends with `.gz`. The file itself
@@ -56,6 +68,15 @@ impl Outputs {
     /// [`Error::Exists`], [`Error::IsInput`]; [`Error::Usage`] for a path that two outputs share; [`Error::Input`] for
     /// a target that is no file; [`Error::Io`] where the folder is missing or cannot be written; what `write` gives.
     pub fn stage(&mut self, path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+        if self.dash && path == Path::new(DASH) {
+            let folder = std::env::temp_dir();
+            let file = tempfile::tempfile().map_err(Error::io("write to", &folder))?;
+            let mut buffer = BufWriter::with_capacity(1 << 20, file);
+            write(&mut buffer)?;
+            let file = buffer.into_inner().map_err(|e| Error::io("write to", &folder)(e.into_error()))?;
+            self.printed = Some(file);
+            return Ok(());
+        }
         let (target, folder) = self.place(path)?;
         self.permit(path, &target)?;
         let mut file = hidden::create(&folder).map_err(Error::io("write to", &folder))?;
@@ -90,7 +111,16 @@ impl Outputs {
     /// # Errors
     /// [`Error::Io`]; [`Error::Exists`] when a target has appeared meanwhile; [`Error::Usage`] when two targets are one
     /// file.
-    pub fn commit(self) -> Result<()> {
+    pub fn commit(mut self) -> Result<()> {
+        let printed = self.printed.take();
+        self.name_files()?;
+        match printed {
+            Some(file) => print(file).map_err(Error::io("write", "standard output")),
+            None => Ok(()),
+        }
+    }
+
+    fn name_files(self) -> Result<()> {
         let _not_interrupted = unfinished::commit();
         let Some(first) = self.staged.first() else { return Ok(()) };
         if let ([only], false) = (self.staged.as_slice(), first.existed) {
@@ -156,6 +186,14 @@ impl Outputs {
             existing => Ok(existing),
         }
     }
+}
+
+/// Copies a file to standard output.
+fn print(mut file: File) -> std::io::Result<()> {
+    let mut stdout = std::io::stdout().lock();
+    std::io::Seek::rewind(&mut file)?;
+    std::io::copy(&mut file, &mut stdout)?;
+    stdout.flush()
 }
 
 fn twice(path: &Path) -> Error {

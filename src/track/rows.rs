@@ -1,11 +1,9 @@
 //! Second passes over the rows of a source.
 
-use std::borrow::Cow;
-
 use super::cells::Cells;
 use super::feed::Feed;
 use super::head::open_quote;
-use super::text::{Text, path_of, sha256, stored};
+use super::text::{Stored, Text, path_of, sha256, stored};
 use super::tokens::{Layout, OpenQuote, Record, RecordKind, Records, Span, is_empty, line_end_of, split};
 use super::{Dialect, Extent, Track, Wanted};
 use crate::error::{Error, Result};
@@ -34,7 +32,7 @@ pub fn for_each_row(track: &Track, mut f: impl FnMut(usize, &Cells<'_>) -> Resul
 ///
 /// # Errors
 /// [`Error::Input`] when they are not.
-pub(crate) fn unchanged(track: &Track) -> Result<Cow<'_, [u8]>> {
+pub(crate) fn unchanged(track: &Track) -> Result<Stored<'_>> {
     let stored = stored(&track.source, Extent::First(track.bytes))?;
     if sha256(&stored, Wanted::always()) != track.sha256 {
         return Err(Error::input(

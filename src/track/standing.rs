@@ -96,7 +96,7 @@ impl Standing {
 /// # Errors
 /// [`Error::Io`] when the source cannot be read.
 pub fn covered(source: &Source, sha256: &str, bytes: Option<u64>) -> Result<Option<u64>> {
-    let Source::File(path) = source else { return Ok(None) };
+    let Some(path) = source.file() else { return Ok(None) };
     let found = match bytes {
         Some(bytes) => hash_of(path, bytes).map(|found| (found == sha256).then_some(bytes)),
         None => line_end_with(path, sha256),

@@ -6,7 +6,7 @@ use memchr::memrchr;
 
 use super::feed::{Check, Feed, Supply, Unfit};
 use super::load::Understood;
-use super::text::Text;
+use super::text::{Text, path_of};
 use super::waves::Failure;
 use super::{Encoding, Extent, LoadOptions, Source, Track, Wanted};
 use crate::error::Error;
@@ -19,27 +19,38 @@ const HEADS: [usize; 2] = [256 << 10, 16 << 20];
 /// What is wrong, or unusual, is left to reading the file whole.
 const UNFIT: Failure = Failure::Unfit(Unfit::Unreadable);
 
-/// Loads so much of the file at `path`. None where its head does not tell how the rest is to be read, and for whatever is wrong
-/// with it: reading it whole says what. A track is the one that reading the file whole gives.
-pub(super) fn streamed(path: &Path, options: &LoadOptions, extent: Extent, wanted: Wanted<'_>) -> Option<Track> {
-    let checked = |check| checked((path, extent), check, options, wanted);
+/// Loads so much of the file at `path`, which is that of `source`. None where its head does not tell how the rest is to be read, and for whatever is
+/// wrong with it: reading it whole says what. A track is the one that reading the file whole gives; what takes too much
+/// memory does so all the more when it is read whole.
+pub(super) fn streamed(
+    (source, path): (&Source, &Path),
+    options: &LoadOptions,
+    extent: Extent,
+    wanted: Wanted<'_>,
+) -> Option<Result<Track, Error>> {
     if std::fs::metadata(path).ok().is_none_or(|m| !m.is_file() || m.len().min(extent.most()) < SMALLEST) {
         return None;
     }
-    match options.encoding {
+    let checked = |check| checked((source, path, extent), check, options, wanted);
+    let track = match options.encoding {
         None | Some(Encoding::Utf8 { .. }) => match checked(Check::Utf8) {
             // The first byte that is not UTF-8 may stand in the last row.
-            Err(Failure::Unfit(Unfit::NotUtf8)) if options.encoding.is_none() => checked(Check::Bytes).ok(),
-            track => track.ok(),
+            Err(Failure::Unfit(Unfit::NotUtf8)) if options.encoding.is_none() => checked(Check::Bytes),
+            track => track,
         },
-        Some(Encoding::Latin1) => checked(Check::Bytes).ok(),
-        Some(Encoding::Utf16 { .. }) => None,
+        Some(Encoding::Latin1) => checked(Check::Bytes),
+        Some(Encoding::Utf16 { .. }) => return None,
+    };
+    match track {
+        Ok(track) => Some(Ok(track)),
+        Err(Failure::Full(full) | Failure::Unfit(Unfit::Full(full))) => Some(Err(Error::memory(path_of(source))(full))),
+        Err(Failure::Open(_) | Failure::Unfit(_)) => None,
     }
 }
 
 /// The file as a text that passes `check`.
 fn checked(
-    (path, extent): (&Path, Extent),
+    (source, path, extent): (&Source, &Path, Extent),
     check: Check,
     options: &LoadOptions,
     wanted: Wanted<'_>,
@@ -62,8 +73,7 @@ fn checked(
         feed.skip(mark);
         Ok(feed)
     };
-    let source = Source::File(path.to_path_buf());
-    understood.track(&source, stored, parsed, (options, wanted), &again).map_err(|_| UNFIT)
+    understood.track(source, stored, parsed, (options, wanted), &again).map_err(|_| UNFIT)
 }
 
 /// What the head tells, and the bytes of the byte order mark and of what stands before the rows.

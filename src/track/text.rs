@@ -13,6 +13,7 @@ use sha2::{Digest, Sha256};
 
 use super::{Encoding, Extent, Source, Wanted};
 use crate::error::{Error, Result};
+use crate::memory::Share;
 
 /// A small packed file can unpack to a thousand times its size: more than this is no record that was packed by mistake
 /// or by somebody who means harm, but one to be unpacked on purpose.
@@ -23,6 +24,8 @@ const MOST_UNPACKED: u64 = 4 << 30;
 pub(crate) struct Text<'a> {
     bytes: Cow<'a, [u8]>,
     start: usize,
+    /// What of it is not borrowed.
+    _share: Share,
     /// How the source encodes it.
     pub(crate) encoding: Encoding,
     /// True when the source is gzipped.
@@ -34,18 +37,34 @@ pub(crate) fn path_of(source: &Source) -> PathBuf {
     match source {
         Source::File(path) => path.clone(),
         Source::BuiltIn { name, .. } => PathBuf::from(name),
+        Source::Input(_) => PathBuf::from(source.name()),
+    }
+}
+
+/// The bytes of a source as they are stored.
+#[derive(Debug)]
+pub(crate) struct Stored<'a> {
+    bytes: Cow<'a, [u8]>,
+    _share: Share,
+}
+
+impl std::ops::Deref for Stored<'_> {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        &self.bytes
     }
 }
 
 /// The bytes of a source as they are stored, so many of them.
 ///
 /// # Errors
-/// [`Error::Io`] when the file cannot be read, [`Error::Input`] for a folder.
-pub(crate) fn stored(source: &Source, extent: Extent) -> Result<Cow<'_, [u8]>> {
+/// [`Error::Io`] when the file cannot be read, [`Error::Input`] for a folder, [`Error::Memory`].
+pub(crate) fn stored(source: &Source, extent: Extent) -> Result<Stored<'_>> {
     match source {
         Source::BuiltIn { bytes, .. } => {
             let end = usize::try_from(extent.most()).unwrap_or(usize::MAX).min(bytes.len());
-            Ok(Cow::Borrowed(&bytes[..end]))
+            Ok(Stored { bytes: Cow::Borrowed(&bytes[..end]), _share: Share::default() })
         }
         Source::File(path) if path.is_dir() => {
             Err(Error::input(path, "this is a folder", "name one of the files in it"))
@@ -56,16 +75,21 @@ pub(crate) fn stored(source: &Source, extent: Extent) -> Result<Cow<'_, [u8]>> {
             "this is a pipe or a device, not a file",
             "save the record as a file first; samples that keep arriving are for `wildpoint stream`",
         )),
-        Source::File(path) => read(path, extent).map(Cow::Owned).map_err(Error::io("read", path)),
+        Source::File(path) => read(path, extent),
+        Source::Input(spool) => read(spool.path(), extent),
     }
 }
 
-fn read(path: &Path, extent: Extent) -> std::io::Result<Vec<u8>> {
-    let file = File::open(path)?;
-    let size = file.metadata()?.len().min(extent.most());
+fn read(path: &Path, extent: Extent) -> Result<Stored<'static>> {
+    let unreadable = || Error::io("read", path);
+    let file = File::open(path).map_err(unreadable())?;
+    let size = file.metadata().map_err(unreadable())?.len().min(extent.most());
+    let mut share = Share::of(size).map_err(Error::memory(path))?;
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default());
-    file.take(extent.most()).read_to_end(&mut bytes)?;
-    Ok(bytes)
+    file.take(extent.most()).read_to_end(&mut bytes).map_err(unreadable())?;
+    // It may have had no length until it was read.
+    share.set(bytes.len() as u64).map_err(Error::memory(path))?;
+    Ok(Stored { bytes: Cow::Owned(bytes), _share: share })
 }
 
 /// SHA-256 in lower-case hexadecimal; that of a part when it is no longer wanted.
@@ -87,7 +111,7 @@ impl<'a> Text<'a> {
     /// The first part of a text, in the encoding that the whole was taken for.
     pub(crate) fn part(bytes: &'a [u8], encoding: Encoding, gzip: bool) -> Self {
         let start = if encoding == (Encoding::Utf8 { bom: true }) { 3 } else { 0 };
-        Self { bytes: Cow::Borrowed(bytes), start, encoding, gzip }
+        Self { bytes: Cow::Borrowed(bytes), start, _share: Share::default(), encoding, gzip }
     }
 
     /// The text in `stored`, in the `wanted` encoding or in the one its bytes show.
@@ -95,7 +119,11 @@ impl<'a> Text<'a> {
     /// # Errors
     /// [`Error::Input`] for a broken gzip stream, for bytes that are not in the wanted encoding, and for NUL bytes.
     pub(crate) fn of(stored: &'a [u8], path: &Path, wanted: Option<Encoding>) -> Result<Self> {
-        let (bytes, gzip) = unpacked(stored, path)?;
+        let (bytes, gzip, mut share) = unpacked(stored, path)?;
+        if let [0xff, 0xfe, ..] | [0xfe, 0xff, ..] = bytes.as_ref() {
+            // Three bytes for two at most.
+            share.add(bytes.len() as u64 / 2 * 3).map_err(Error::memory(path))?;
+        }
         let (bytes, start, encoding) = match bytes.as_ref() {
             [0xff, 0xfe, ..] => (Cow::Owned(from_utf16(&bytes[2..], false, path)?), 0, utf16(false)),
             [0xfe, 0xff, ..] => (Cow::Owned(from_utf16(&bytes[2..], true, path)?), 0, utf16(true)),
@@ -114,7 +142,7 @@ impl<'a> Text<'a> {
             Encoding::Utf8 { bom } => eight_bit(&bytes[start..], bom, wanted, path)?,
             other => other,
         };
-        Ok(Self { bytes, start, encoding, gzip })
+        Ok(Self { bytes, start, _share: share, encoding, gzip })
     }
 
     /// The bytes that hold records.
@@ -144,20 +172,30 @@ fn utf16(big_endian: bool) -> Encoding {
     Encoding::Utf16 { big_endian }
 }
 
-fn unpacked<'a>(stored: &'a [u8], path: &Path) -> Result<(Cow<'a, [u8]>, bool)> {
+fn unpacked<'a>(stored: &'a [u8], path: &Path) -> Result<(Cow<'a, [u8]>, bool, Share)> {
+    let mut share = Share::default();
     if !stored.starts_with(&[0x1f, 0x8b]) {
-        return Ok((Cow::Borrowed(stored), false));
+        return Ok((Cow::Borrowed(stored), false, share));
     }
     let mut bytes = Vec::new();
-    MultiGzDecoder::new(stored)
-        .take(MOST_UNPACKED + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|e| Error::input(path, format!("the gzip stream is broken: {e}"), "copy or fetch the file again"))?;
-    if bytes.len() as u64 > MOST_UNPACKED {
-        return Err(Error::input(path, "it unpacks to more than 4 GiB", "unpack it (gunzip -k) if that is what it is"));
+    let mut packed = MultiGzDecoder::new(stored);
+    loop {
+        share.add(PIECE).map_err(Error::memory(path))?;
+        let read = (&mut packed).take(PIECE).read_to_end(&mut bytes).map_err(|e| {
+            Error::input(path, format!("the gzip stream is broken: {e}"), "copy or fetch the file again")
+        })?;
+        if bytes.len() as u64 > MOST_UNPACKED {
+            let help = "unpack it (gunzip -k) if that is what it is";
+            return Err(Error::input(path, "it unpacks to more than 4 GiB", help));
+        }
+        if read == 0 {
+            return Ok((Cow::Owned(bytes), true, share));
+        }
     }
-    Ok((Cow::Owned(bytes), true))
 }
+
+/// So much is unpacked at a time.
+const PIECE: u64 = 4 << 20;
 
 fn from_utf16(bytes: &[u8], big_endian: bool, path: &Path) -> Result<Vec<u8>> {
     let encoding = if big_endian { UTF_16BE } else { UTF_16LE };

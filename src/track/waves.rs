@@ -10,6 +10,7 @@ use super::body::{Body, Plan, Whole};
 use super::chunk::{Broken, Chunk};
 use super::feed::{Feed, Unfit};
 use super::tokens::OpenQuote;
+use crate::memory::Full;
 
 /// Bytes of a chunk: its text and its numbers fit into the cache of a core.
 const CHUNK: usize = 256 << 10;
@@ -23,6 +24,8 @@ pub(crate) enum Failure {
     Open(OpenQuote),
     /// The text cannot be read piece by piece.
     Unfit(Unfit),
+    /// The rows take more memory than there is.
+    Full(Full),
 }
 
 /// Parses what `feed` gives, the body of a file from its first data row on, which is on line `first_line`; the body
@@ -43,10 +46,11 @@ fn parse_by(feed: &mut Feed<'_>, mut whole: Whole, plan: &Plan<'_>, chunk: usize
     let size = chunk * WAVE * rayon::current_num_threads();
     let mut last = feed.next(&mut wave, size).map_err(Failure::Unfit)?;
     loop {
-        let (read, ((), parsed)) = rayon::join(
+        let (read, (added, parsed)) = rayon::join(
             || if last { Ok(true) } else { feed.next(&mut ahead, size) },
             || rayon::join(|| whole.add(&mut before), || parse_wave(&wave, plan, chunk, &mut bodies)),
         );
+        added.map_err(Failure::Full)?;
         let end_ahead = read.map_err(Failure::Unfit)?;
         let done = match parsed {
             Ok(()) => wave.len(),
@@ -69,7 +73,7 @@ fn parse_by(feed: &mut Feed<'_>, mut whole: Whole, plan: &Plan<'_>, chunk: usize
         std::mem::swap(&mut wave, &mut ahead);
         last = end_ahead;
     }
-    whole.add(&mut before);
+    whole.add(&mut before).map_err(Failure::Full)?;
     Ok(whole.finished())
 }
 
@@ -160,7 +164,7 @@ mod tests {
         let mut feed = Feed::of(text.as_bytes(), b'\n');
         parse_by(&mut feed, Whole::new(plan, 0, 0), plan, chunk).map(all).map_err(|failure| match failure {
             Failure::Open(quote) => quote.line,
-            Failure::Unfit(_) => u64::MAX,
+            Failure::Unfit(_) | Failure::Full(_) => u64::MAX,
         })
     }
 

@@ -95,6 +95,6 @@ fn reopened(model: &Model) -> Option<PathBuf> {
     match (&model.file, &model.track.source) {
         (Some(file), _) => Some(file.clone()),
         (None, Source::File(path)) => Some(path.clone()),
-        (None, Source::BuiltIn { .. }) => None,
+        (None, Source::BuiltIn { .. } | Source::Input(_)) => None,
     }
 }

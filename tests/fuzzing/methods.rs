@@ -158,6 +158,7 @@ pub(crate) fn made_of(seconds: Vec<f64>, channels: [(&str, Vec<f64>); 2]) -> Tra
         source: Source::BuiltIn { name: "fuzz", bytes: Arc::from(&[][..]) },
         sha256: String::new(),
         bytes: 0,
+        share: Default::default(),
         dialect: Dialect {
             delimiter: Delimiter::Byte(b','),
             quote: None,

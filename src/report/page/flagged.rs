@@ -87,13 +87,12 @@ fn cells_of(e: &Evidence, time: String) -> Vec<String> {
 }
 
 fn in_words((more, decided): (usize, usize)) -> String {
-    match (more, decided) {
-        (0, _) => String::new(),
-        (more, 0) => format!("and {more} more, which `--flags FILE` writes with the rest"),
-        (more, decided) => {
-            format!(
-                "and {more} more ({decided} of them decided by the analyst), which `--flags FILE` writes with the rest"
-            )
-        }
+    if more == 0 {
+        return String::new();
     }
+    let decided = if decided == 0 { String::new() } else { format!(" ({decided} of them decided by the analyst)") };
+    let all = MOST + more;
+    format!(
+        "The first {MOST} of {all} are listed; the other {more}{decided} are in the table that `--flags FILE` writes."
+    )
 }

@@ -9,15 +9,19 @@ use toml::{Spanned, Table};
 
 use super::{FORMAT, OLDEST};
 use crate::error::{Error, Result};
+use crate::memory::Share;
 use crate::param::{Kind, Param, Settings, Value, find};
 use crate::repair;
 use crate::review::{Decision, Decisions, Ruling};
 use crate::session::digest::{Digest, WrittenDigest};
 use crate::session::{Data, Plan, Recorded, Session, Setup, folder_of, method_of_id, tidied};
-use crate::track::{LoadOptions, Source, Worded};
+use crate::track::{DASH, LoadOptions, Source, Worded};
 
 /// A session file larger than this is none.
 const LARGEST: u64 = 64 << 20;
+
+/// Bytes that a byte of it takes while it is read.
+const OF_BYTE: u64 = 80;
 
 /// A decision as the file has it, with the texts of the input that it was made on.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
@@ -119,14 +123,35 @@ pub fn read(path: &Path) -> Result<Session> {
 
 pub(in crate::session) fn read_with_texts(path: &Path) -> Result<Read> {
     use std::io::Read as _;
-    let file = std::fs::File::open(path).map_err(Error::io("read", path))?;
-    // The size that a device or a growing file tells is not what it gives.
-    let mut text = String::new();
-    file.take(LARGEST + 1).read_to_string(&mut text).map_err(Error::io("read", path))?;
-    if text.len() as u64 > LARGEST {
+    let unreadable = || Error::io("read", path);
+    let large = || {
         let what = format!("more than {} MiB are too many for a session", LARGEST >> 20);
-        return Err(fault(path, None, what, "is it the right file?"));
+        fault(path, None, what, "is it the right file?")
+    };
+    let mut text = String::new();
+    let mut share = Share::default();
+    let mut read =
+        |from: &mut dyn std::io::Read| from.take(LARGEST + 1).read_to_string(&mut text).map_err(unreadable());
+    if path == Path::new(DASH) {
+        read(&mut std::io::stdin().lock())?;
+    } else {
+        // A pipe would wait for its other end, and a device may have none.
+        let about = path.metadata().map_err(unreadable())?;
+        if !about.is_file() {
+            return Err(fault(path, None, "this is no ordinary file".into(), "name a session file"));
+        }
+        // Known before anything of it is read.
+        if about.len() > LARGEST {
+            return Err(large());
+        }
+        share.set(about.len().saturating_mul(OF_BYTE)).map_err(Error::memory(path))?;
+        read(&mut std::fs::File::open(path).map_err(unreadable())?)?;
     }
+    // The size that a growing file tells is not what it gives.
+    if text.len() as u64 > LARGEST {
+        return Err(large());
+    }
+    share.set((text.len() as u64).saturating_mul(OF_BYTE)).map_err(Error::memory(path))?;
     parse_with_texts(path, &text)
 }
 

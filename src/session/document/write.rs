@@ -120,6 +120,10 @@ fn decisions(plan: &Plan, texts: &[(String, String)]) -> Vec<String> {
 fn reference(source: &Source, session: &Path) -> Result<String> {
     let file = match source {
         Source::BuiltIn { name, .. } => return Ok((*name).to_owned()),
+        Source::Input(_) => {
+            let help = "save the record as a file, and give its name";
+            return Err(Error::input(source.name(), "a session cannot find it again", help));
+        }
         Source::File(file) => file,
     };
     let whole = |p: &Path| std::path::absolute(p).unwrap_or_else(|_| p.to_path_buf());

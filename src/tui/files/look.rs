@@ -56,6 +56,7 @@ impl Glance {
             Source::BuiltIn { bytes, .. } => {
                 Ok(of_record(&Preview::of_bytes(bytes, &self.options, bytes.len() as u64, 1.0, wanted)?))
             }
+            Source::Input(_) => Ok(Seen { lines: vec![self.source.name()], ..Seen::default() }),
         }
     }
 }
@@ -64,7 +65,7 @@ fn of_session(path: &Path) -> Result<Seen> {
     let session = session::read(path)?;
     let record = match &session.data.source {
         Source::File(record) => record.display().to_string(),
-        Source::BuiltIn { name, .. } => (*name).to_owned(),
+        other => other.name(),
     };
     let mut lines = vec![format!("session on {}", printable(&record)), counted(session.data.rows, "row")];
     for plan in &session.plans {

@@ -23,7 +23,9 @@ pub(super) fn show(model: &mut Model, output: Option<PathBuf>) -> Vec<Effect> {
             None => {
                 let why = match &model.track.source {
                     Source::BuiltIn { .. } => "the built-in record is replayed from a session",
-                    Source::File(_) => "decisions and differences between channels are in a session only",
+                    Source::File(_) | Source::Input(_) => {
+                        "decisions and differences between channels are in a session only"
+                    }
                 };
                 model.say(Tone::Warning, format!("{why}: :w saves one, then this shows the line that replays it"));
                 return Vec::new();

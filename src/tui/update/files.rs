@@ -57,6 +57,7 @@ fn stem(source: &Source) -> String {
     let name = match source {
         Source::File(path) => path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
         Source::BuiltIn { name, .. } => name.rsplit(':').next().unwrap_or(name).to_owned(),
+        Source::Input(_) => source.name(),
     };
     let name = name.strip_suffix(".gz").unwrap_or(&name);
     Path::new(name).file_stem().map_or_else(|| name.to_owned(), |s| s.to_string_lossy().into_owned())
