@@ -352,7 +352,14 @@ fn outputs_are_chosen_named_and_written_together() {
     for (label, size) in [("80x24", (80, 24)), ("120x40", (120, 40))] {
         let mut bench = Bench::new().size(size);
         let effects = bench.control('e');
-        let names = ["demo.clean.csv", "demo.flags.csv", "demo.diagnostics.csv", "demo.html", "demo.wild.toml"];
+        let names = [
+            "demo.clean.csv",
+            "demo.flags.csv",
+            "demo.diagnostics.csv",
+            "demo.html",
+            "demo.wild.toml",
+            "demo.decisions.csv",
+        ];
         assert_eq!(effects, [Effect::Files(Task::Check(names.map(PathBuf::from).to_vec()))]);
         bench.news(News::Checked(vec![("demo.flags.csv".into(), true), ("demo.html".into(), false)]));
         bench.key(KeyCode::Down);

@@ -75,7 +75,7 @@ fn a_session_is_refused_by_its_size() {
 #[test]
 fn what_a_method_takes_is_counted_too() {
     let mut text = String::from("t,x\n");
-    (0..300_000).for_each(|i| text.push_str(&format!("{i},{}\n", i * 7919 % 1000)));
+    (0..300_000_u64).for_each(|i| text.push_str(&format!("{i},{}\n", i * 7919 % 1000)));
     let folder = Folder::with(&[("a.csv", text.as_bytes())]);
     for words in ["clean a.csv", "sweep a.csv --method hampel", "compare a.csv"] {
         refused(&folder, &format!("{words} --memory 25M"));

@@ -236,7 +236,7 @@ mod tests {
             said("  { row = 10, verdict = \"normal\" },\n", ""),
             since("row 10 of a b: the decision or its note was removed")
         );
-        assert_eq!(said("]\n", "]\nrate = \"c\"\n"), since("rate of a b was added"));
+        assert_eq!(said(" },\n]\n", " },\n]\nrate = \"c\"\n"), since("rate of a b was added"));
         let both = said("\"x\" },\n  { row = 10", "\"y\" },\n  { row = 11");
         assert_eq!(both.len(), 3, "{both:?}");
     }

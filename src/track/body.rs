@@ -53,6 +53,9 @@ pub(crate) struct Body {
     pub(crate) share: Share,
 }
 
+/// Bytes of each row that are left free for whatever is done with the record next: looking at its noise, say.
+const AFTERWARDS: u64 = 32;
+
 impl Body {
     /// Nothing yet, with room for so many rows.
     pub(crate) fn new(plan: &Plan<'_>, rows: usize) -> Self {
@@ -69,7 +72,15 @@ impl Body {
     /// The memory that so many rows take, with the times that are made of their moments.
     fn bytes(&self, rows: usize) -> u64 {
         let times = if self.moments.is_some() { 2 } else { 1 };
-        (rows as u64).saturating_mul(8 * (self.numbers.len() as u64 + times))
+        (rows as u64).saturating_mul(8 * (self.numbers.len() as u64 + times) + AFTERWARDS)
+    }
+
+    /// The memory of the record that it becomes: what was left free is free again.
+    pub(crate) fn kept(&mut self) -> Share {
+        let mut share = std::mem::take(&mut self.share);
+        // Less than before is never refused.
+        let _ = share.set(self.bytes(self.rows).saturating_sub(AFTERWARDS * self.rows as u64));
+        share
     }
 
     /// Empty again, with its buffers.

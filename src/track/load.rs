@@ -172,6 +172,7 @@ impl Understood {
             let what = format!("{} rows are too many", body.rows);
             return Err(Error::input(path, what, "split the file below 2^32 rows"));
         }
+        let share = body.kept();
         let columns = columns_of(head, timing, roles, &body, options)?;
         let clock = timing.is_some_and(|t| t.format == TimeFormat::Clock);
         let mut track = Track {
@@ -187,7 +188,7 @@ impl Understood {
             faults: cell_faults(&columns, roles, &body),
             columns,
             notes: Vec::new(),
-            share: Arc::new(body.share),
+            share: Arc::new(share),
         };
         let targets = match roles.track {
             Some(column) => Some(Targets::divide(&mut track, column, again, (head, options))?),

@@ -33,9 +33,9 @@ fn all_outputs_appear_together() {
     let (track, session) = opened();
     let folder = tempfile::tempdir().unwrap();
     let words = export(&track, &session, &all(folder.path(), "a.md"), false).unwrap();
-    assert!(words.starts_with("wrote 5 files: "), "{words}");
+    assert!(words.starts_with("wrote 6 files: "), "{words}");
     let names: Vec<String> = content(folder.path()).into_keys().collect();
-    assert_eq!(names, ["a.clean.csv", "a.diagnostics.csv", "a.flags.csv", "a.md", "a.wild.toml"]);
+    assert_eq!(names, ["a.clean.csv", "a.decisions.csv", "a.diagnostics.csv", "a.flags.csv", "a.md", "a.wild.toml"]);
     // One of them is there: none is written, the others stay away too.
     std::fs::remove_file(folder.path().join("a.clean.csv")).unwrap();
     std::fs::write(folder.path().join("a.flags.csv"), "theirs").unwrap();
@@ -44,7 +44,7 @@ fn all_outputs_appear_together() {
     assert!(matches!(refused, Err(Error::Exists(_))), "{refused:?}");
     assert!(content(folder.path()) == before);
     export(&track, &session, &all(folder.path(), "a.md"), true).unwrap();
-    assert_eq!(content(folder.path()).len(), 5);
+    assert_eq!(content(folder.path()).len(), 6);
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn a_disk_that_fails_at_any_place_leaves_what_was_there() {
             survived += 1;
             continue;
         }
-        assert_eq!(content(folder.path()).len(), 5, "place {fault}");
+        assert_eq!(content(folder.path()).len(), 6, "place {fault}");
         if !hit {
             break;
         }
