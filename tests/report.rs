@@ -68,9 +68,10 @@ fn the_command_of_a_report_gives_the_result_of_the_report() {
 fn the_session_in_a_report_gives_the_result_of_the_report() {
     let folder = Folder::with_demo();
     folder.done("clean demo.csv --channel vx_mps --save-session s.toml -q");
-    let decided = folder.text("s.toml").replace(
+    let decided = folder.text("s.toml").replacen(
         "repair = ",
         "decisions = [{ row = 61, time = \"61.0\", value = \"135.93\", verdict = \"normal\", note = \"a <b>glint</b>\" }]\nrepair = ",
+        1,
     );
     std::fs::write(folder.path("s.toml"), decided).unwrap();
     std::fs::create_dir(folder.path("out")).unwrap();

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::OnceLock;
 
 use serde::Deserialize;
 use toml::{Spanned, Table};
@@ -133,7 +134,12 @@ pub(in crate::session) fn read_with_texts(path: &Path) -> Result<Read> {
     let mut read =
         |from: &mut dyn std::io::Read| from.take(LARGEST + 1).read_to_string(&mut text).map_err(unreadable());
     if path == Path::new(DASH) {
-        read(&mut std::io::stdin().lock())?;
+        // It can be read once, and a session is asked for its record before it is run.
+        static TEXT: OnceLock<String> = OnceLock::new();
+        if TEXT.get().is_none() {
+            read(&mut std::io::stdin().lock())?;
+        }
+        text = TEXT.get_or_init(|| text).clone();
     } else {
         // A pipe would wait for its other end, and a device may have none.
         let about = path.metadata().map_err(unreadable())?;
