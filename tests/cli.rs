@@ -48,7 +48,7 @@ fn clean_writes_the_files_of_the_contract() {
         assert!(flagged(&i.to_string(), "vx_mps"), "row {i}: {line}");
     }
     let session = folder.text("s.toml");
-    assert!(session.starts_with("format = 1\n") && session.contains("file = \"demo.csv\"\n"), "{session}");
+    assert!(session.starts_with("format = 2\n") && session.contains("file = \"demo.csv\"\n"), "{session}");
     assert_eq!(session.matches("[[channel]]").count(), 2);
 }
 

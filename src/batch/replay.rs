@@ -30,6 +30,8 @@ pub(super) fn run_all(
         let (summary, notes) = run(session, accepted, (target, &inputs))?;
         if talks {
             tell_notes(session, &notes, out)?;
+        } else if outputs.takes_standard_output() && !outputs.quiet {
+            tell_notes(session, &notes, &mut std::io::stderr())?;
         }
         return tell(outputs, &summary, out);
     }
@@ -78,6 +80,9 @@ fn run(path: &Path, accepted: Accepted, (target, inputs): (&Target, &[&Path])) -
     files.commit()?;
     let mut notes: Vec<String> = opened.appended.map(Grown::words).into_iter().collect();
     notes.extend(opened.notes);
+    if outputs.json {
+        summary.notes.splice(0..0, notes.iter().cloned());
+    }
     if let Some(then) = opened.session.result.as_ref().filter(|_| outputs.json || !outputs.quiet) {
         let now = match summary.clean_sha256.clone() {
             Some(clean_sha256) => Recorded {
