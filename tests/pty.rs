@@ -154,7 +154,7 @@ fn nothing_is_overwritten_without_being_told_to() {
     terminal.wait_for("overwrite it");
     terminal.keys("o");
     terminal.wait_for("saved there.toml");
-    assert!(folder.text("there.toml").starts_with("format = 1\n"));
+    assert!(folder.text("there.toml").starts_with("format = 2\n"));
 }
 
 #[test]
