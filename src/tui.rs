@@ -226,7 +226,7 @@ fn work(
         inbox.extend(outside.messages.try_iter());
         // Advice that no panel shows changes nothing on the screen: nothing goes over the wire.
         let unseen = |m: &Message| matches!(m, Message::Advised { .. } | Message::NoAdvice);
-        let panel = layout::arrange(model).is_some_and(|areas| areas.parameters.is_some());
+        let panel = layout::arrange(model, model.screen()).is_some_and(|areas| areas.parameters.is_some());
         let still = !panel && !inbox.is_empty() && inbox.iter().all(unseen);
         let leaves = outside.take_all(model, screen, inbox)? || outside.await_result(model, screen)?;
         if leaves {

@@ -19,6 +19,14 @@ mod program;
 mod terminal;
 
 use program::Folder;
+#[path = "pty/resize.rs"]
+mod resize;
+#[cfg(target_os = "linux")]
+#[path = "pty/soak.rs"]
+mod soak;
+#[cfg(target_os = "linux")]
+#[path = "pty/stuck.rs"]
+mod stuck;
 use terminal::{Terminal, title};
 
 const COMPACT: (u16, u16) = (80, 24);

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use ratatui::layout::Rect;
 use rayon::prelude::*;
 
 use super::action::{Action, Panel};
@@ -188,6 +189,12 @@ impl Model {
     /// The channel on the screen.
     #[must_use]
     pub fn state(&self) -> &ChannelState {
+    /// The screen, as large as the last message about it said.
+    #[must_use]
+    pub fn screen(&self) -> Rect {
+        Rect { x: 0, y: 0, width: self.size.0, height: self.size.1 }
+    }
+
         &self.channels[self.shown]
     }
 

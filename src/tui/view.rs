@@ -47,7 +47,7 @@ pub fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
 }
 
 fn draw_panels(model: &Model, area: Rect, buffer: &mut Buffer) {
-    let Some(areas) = layout::arrange(model) else {
+    let Some(areas) = layout::arrange(model, area) else {
         too_small(model, area, buffer);
         return;
     };
@@ -81,7 +81,7 @@ fn draw_panels(model: &Model, area: Rect, buffer: &mut Buffer) {
         parameters::draw(model, place(area, buffer), buffer);
     }
     if let Some(area) = areas.queue {
-        queue::draw(model, place(area, buffer), buffer);
+        queue::draw(model, areas.card.is_some(), place(area, buffer), buffer);
     }
     toast(model, areas.toast, buffer);
     footer::draw(model, areas.footer, buffer);
@@ -101,7 +101,7 @@ fn drawer(model: &Model, area: Rect, buffer: &mut Buffer) -> Rect {
 }
 
 fn too_small(model: &Model, area: Rect, buffer: &mut Buffer) {
-    let (width, height) = model.size;
+    let Rect { width, height, .. } = area;
     let text = format!("terminal too small ({width}x{height}), need {}x{}", LEAST.0, LEAST.1);
     for (i, words) in [text.as_str(), "q quits"].into_iter().enumerate() {
         let row = Rect { y: area.y + u16::try_from(i).unwrap_or(0), height: 1, ..area };
