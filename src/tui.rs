@@ -195,9 +195,11 @@ fn work(
     outside.carry_out(model, screen, first)?;
     let events = listen_for_events();
     let mut normaliser = Normaliser::default();
+    let freed = screen.freed();
     screen.draw(model)?;
     loop {
         let mut inbox = Vec::new();
+        let free = screen.is_free();
         select! {
             recv(events) -> event => match event {
                 Ok(event) => take_event(event, &mut normaliser, &mut inbox),
@@ -212,9 +214,15 @@ fn work(
                     Signalled::Resumed => screen.forget()?,
                 }
             },
-            default(pace.patience(normaliser.waits())) => {
-                let key = if pace.frame_is_due() { None } else { normaliser.flush() };
-                match key {
+            recv(freed) -> _ => {
+                screen.check()?;
+                if !pace.owes() {
+                    continue;
+                }
+            },
+            default(pace.patience(normaliser.waits(), free)) => {
+                let due = pace.frame_is_due(free);
+                match if due { None } else { normaliser.flush() } {
                     Some(key) => inbox.push(Message::Key(key)),
                     None if pace.frame_is_due() => {}
                     None => continue,
@@ -233,7 +241,7 @@ fn work(
             return Ok(Left::Quit);
         }
         outside.journal.catch_up();
-        if pace.draws(!still) {
+        if pace.draws(!still, screen.is_free()) {
             screen.draw(model)?;
         }
     }

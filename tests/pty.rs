@@ -27,6 +27,9 @@ mod soak;
 #[cfg(target_os = "linux")]
 #[path = "pty/stuck.rs"]
 mod stuck;
+mod terminal;
+
+use program::Folder;
 use terminal::{Terminal, title};
 
 const COMPACT: (u16, u16) = (80, 24);

@@ -27,6 +27,12 @@ pub(super) fn listen() -> Result<Receiver<Signalled>> {
         .map_err(|source| Error::Io { action: "listen for", path: "signals".into(), source })?;
     let (sender, receiver) = crossbeam_channel::unbounded();
     std::thread::spawn(move || {
+    let of_input = sender.clone();
+    std::thread::spawn(move || {
+        if input_has_ended() {
+            let _ = of_input.send(Signalled::End(HANG_UP));
+        }
+    });
         for signal in signals.forever() {
             let meaning = match signal {
                 SIGTSTP => Signalled::Suspend,
@@ -42,6 +48,29 @@ pub(super) fn listen() -> Result<Receiver<Signalled>> {
 }
 
 #[cfg(not(unix))]
+/// Waits for the end of input: the other side of the terminal is closed. Where the program is no part of its session,
+/// no signal says so, and whoever reads input gets nothing, again and again. False when it cannot be known.
+#[cfg(unix)]
+fn input_has_ended() -> bool {
+    use rustix::event::{PollFd, PollFlags, poll};
+    use std::io::IsTerminal as _;
+    // What keys are read from.
+    let console = if std::io::stdin().is_terminal() { None } else { std::fs::File::open("/dev/tty").ok() };
+    let stdin = std::io::stdin();
+    loop {
+        // No event is asked for: an end is told anyway.
+        let mut input = match &console {
+            Some(console) => PollFd::new(console, PollFlags::empty()),
+            None => PollFd::new(&stdin, PollFlags::empty()),
+        };
+        match poll(std::slice::from_mut(&mut input), None) {
+            Err(rustix::io::Errno::INTR) => {}
+            Err(_) => return false,
+            Ok(_) => return input.revents().intersects(PollFlags::HUP | PollFlags::ERR),
+        }
+    }
+}
+
 pub(super) fn listen() -> Result<Receiver<Signalled>> {
     Ok(crossbeam_channel::never())
 }
