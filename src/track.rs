@@ -57,7 +57,7 @@ pub(crate) use outputs::faults;
 pub use outputs::{Outputs, take_unfinished_away};
 pub use preview::Preview;
 pub(crate) use printable::is_hidden;
-pub use printable::{printable, printable_json, printable_lines};
+pub use printable::{is_shown, printable, printable_json, printable_lines};
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use series::{Samples, Series, lost_samples};
