@@ -113,6 +113,11 @@ pub fn read(path: &Path) -> Result<Session> {
 
 pub(in crate::session) fn read_with_texts(path: &Path) -> Result<Read> {
     use std::io::Read as _;
+    // Looked at before it is opened: a pipe would wait for its other end.
+    if std::fs::metadata(path).is_ok_and(|about| !about.is_file()) {
+        let what = "this is a folder, a pipe or a device, not a session file".into();
+        return Err(fault(path, None, what, "is it the right file?"));
+    }
     let file = std::fs::File::open(path).map_err(Error::io("read", path))?;
     // The size that a device or a growing file tells is not what it gives.
     let mut text = String::new();
