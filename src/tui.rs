@@ -170,7 +170,7 @@ pub fn run(opening: Opening, look: Look, config: Config, journal: Option<PathBuf
     drop(screen);
     Ok(match left? {
         Left::Quit => Ended::default(),
-        Left::Signalled(signal) => Ended::by(signal, &model, kept.as_deref()),
+        Left::Signalled(signal) => Ended::by(signal, &model, kept.as_ref()),
     })
 }
 
@@ -224,7 +224,7 @@ fn work(
                 let due = pace.frame_is_due(free);
                 match if due { None } else { normaliser.flush() } {
                     Some(key) => inbox.push(Message::Key(key)),
-                    None if pace.frame_is_due() => {}
+                    None if due => {}
                     None => continue,
                 }
             },

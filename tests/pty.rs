@@ -9,6 +9,9 @@ mod bytes;
 mod command_line;
 #[path = "pty/files.rs"]
 mod files;
+#[cfg(target_os = "linux")]
+#[path = "pty/full_disk.rs"]
+mod full_disk;
 #[path = "pty/journal.rs"]
 mod journal;
 #[path = "pty/mouse.rs"]
@@ -16,9 +19,6 @@ mod mouse;
 #[path = "pty/pictures.rs"]
 mod pictures;
 mod program;
-mod terminal;
-
-use program::Folder;
 #[path = "pty/resize.rs"]
 mod resize;
 #[cfg(target_os = "linux")]

@@ -29,7 +29,7 @@ mod review;
 pub use channel::{ChannelState, Pinned, YMode};
 pub use dialog::{Browser, Dialog, ExportForm, ExportRow, LoaderForm, Over, Waiting};
 pub use lower::{Lower, LowerKind, Second};
-pub use overlay::{Overlay, Picker, PickerKind, Prompt, PromptKind};
+pub use overlay::{Merging, Overlay, Picker, PickerKind, Prompt, PromptKind};
 pub use review::{Group, Reviewing, Sort, Unit};
 
 /// Everything on the screen comes from here.
@@ -97,6 +97,8 @@ pub struct Model {
     pub ticket: u64,
     /// What is opened as soon as the session has been saved.
     pub then_open: Option<Request>,
+    /// Why changes are not journalled; none while they are, or where no journal is wanted.
+    pub not_journalled: Option<String>,
     /// Edits of the document that the journal does not have yet, as [`Edit::touched`] says.
     pub unjournalled: Vec<Vec<(usize, Vec<u32>)>>,
 }
@@ -171,6 +173,7 @@ impl Model {
             interrupted: false,
             ticket: 0,
             then_open: None,
+            not_journalled: None,
             unjournalled: Vec::new(),
         }
     }
@@ -186,15 +189,15 @@ impl Model {
         self.review.keep_habits_of(old.review);
     }
 
-    /// The channel on the screen.
-    #[must_use]
-    pub fn state(&self) -> &ChannelState {
     /// The screen, as large as the last message about it said.
     #[must_use]
     pub fn screen(&self) -> Rect {
         Rect { x: 0, y: 0, width: self.size.0, height: self.size.1 }
     }
 
+    /// The channel on the screen.
+    #[must_use]
+    pub fn state(&self) -> &ChannelState {
         &self.channels[self.shown]
     }
 
@@ -344,6 +347,12 @@ impl Model {
     #[must_use]
     pub fn key(&self, action: Action) -> String {
         words::key(&self.keys, action)
+    }
+
+    /// Says something in the footer after what is said there already.
+    pub fn say_too(&mut self, tone: Tone, text: &str) {
+        let before = self.toast.take().map(|toast| toast.text + " · ").unwrap_or_default();
+        self.say(tone, before + text);
     }
 
     /// Says something in the footer.

@@ -20,7 +20,7 @@ pub(super) mod describe;
 mod dialog;
 mod files;
 mod history;
-mod journal;
+pub(super) mod journal;
 mod jump;
 mod mouse;
 mod navigate;
@@ -104,9 +104,8 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
         }
         Message::Written { what, path, result } => files::written(model, &what, &path, result),
         Message::Files(news) => dialog::news(model, news),
-        Message::Unjournalled(e) => {
-            let text = e.to_string().replace("\n  ", "; ");
-            model.say(Tone::Error, format!("the journal ends here, :w saves: {text}"));
+        Message::Journal(news) => {
+            journal::news(model, news);
             Vec::new()
         }
     }

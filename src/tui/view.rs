@@ -10,6 +10,7 @@ use ratatui::widgets::Widget;
 use super::action::{Action, Panel};
 use super::layout::{self, LEAST};
 use super::model::{Model, Overlay, Tone};
+use super::update::journal::not_journalled;
 use super::words;
 use crate::track::without_signed_zero;
 
@@ -20,6 +21,7 @@ mod footer;
 mod help;
 mod journal;
 mod lower;
+mod merge;
 pub(super) mod overlay;
 mod palette;
 pub(super) mod parameters;
@@ -123,6 +125,8 @@ fn toast(model: &Model, area: Rect, buffer: &mut Buffer) {
         said(&toast.text, style)
     } else if let Some(error) = &model.state().error {
         said(error, theme.error)
+    } else if let Some(why) = &model.not_journalled {
+        said(&not_journalled(why), theme.error)
     } else if let Some(range) = model.selection() {
         said(&range_words(model, &range), theme.focus)
     } else if let Some(warning) = unchecked(model).or_else(|| no_flags(model)) {

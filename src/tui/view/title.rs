@@ -50,6 +50,9 @@ fn left_side(model: &Model, width: usize) -> Line<'static> {
 fn right_side(model: &Model, width: u16) -> Line<'static> {
     let (theme, glyphs, state) = (&model.theme, model.glyphs, model.state());
     let mut spans = Vec::new();
+    if model.not_journalled.is_some() {
+        spans.push(Span::styled("not journalled ", theme.error));
+    }
     match &state.drawn {
         None if state.error.is_some() => spans.push(Span::styled("no result ", theme.error)),
         None => spans.push(Span::styled("computing … ", theme.warning)),
