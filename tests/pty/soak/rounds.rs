@@ -1,0 +1,263 @@
+//! What is done in a round, and what must hold after it.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use super::super::terminal::{Terminal, title};
+use super::desk::{Desk, WINDOW, not_journalled};
+use super::random::{ANYTHING, Chance, HARMLESS};
+
+/// The channel on which decisions are made, and rows of it: some are flagged, some are not.
+const CHANNEL: &str = "vx_mps";
+const ROWS: [u32; 14] = [61, 62, 91, 120, 200, 222, 239, 300, 323, 393, 397, 398, 458, 700];
+
+/// What was done.
+#[derive(Default)]
+pub(super) struct Counts {
+    rounds: usize,
+    keys: usize,
+    resizes: usize,
+    grown: usize,
+    grown_offered: usize,
+    full: usize,
+    killed: usize,
+    signalled: usize,
+    quit: usize,
+    decisions: usize,
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { rounds, keys, resizes, grown, grown_offered, full, killed, signalled, quit, decisions } = self;
+        write!(
+            f,
+            "{rounds} rounds, {keys} keys, {resizes} resizes, {grown} rows appended to open records ({grown_offered} \
+             rounds taken back in with them), {full} times a full disk, {killed} kills, {signalled} signals, {quit} \
+             ends by the user; {decisions} decisions came back, none was lost"
+        )
+    }
+}
+
+/// One round: a workbench lives through all sorts of things and ends, and the next one has all of its work.
+pub(super) fn round(seed: u64, counts: &mut Counts) {
+    let mut chance = Chance::of(seed);
+    if chance.one_in(3) {
+        anything(&mut chance, counts)
+    } else {
+        Careful::new(chance, counts).run()
+    }
+    counts.rounds += 1;
+}
+
+/// All sorts of keys against all sorts of sizes: the program goes on, or ends because it was told to.
+fn anything(chance: &mut Chance, counts: &mut Counts) {
+    let desk = Desk::new();
+    let mut terminal = desk.start(WINDOW);
+    terminal.settle();
+    for _ in 0..40 + chance.below(160) {
+        terminal.keys(if chance.one_in(3) { chance.of_list(&HARMLESS) } else { chance.of_list(&ANYTHING) });
+        counts.keys += 1;
+        if chance.one_in(6) {
+            terminal.resize(chance.size());
+            counts.resizes += 1;
+        }
+        if chance.one_in(40) {
+            desk.grow();
+            counts.grown += 1;
+        }
+        if terminal.ended() {
+            break;
+        }
+    }
+    terminal.resize(WINDOW);
+    if !terminal.ended() {
+        // It answers.
+        let before = terminal.bytes();
+        terminal.keys("\x0c");
+        terminal.wait_more_or_end(before);
+    }
+    if terminal.ended() {
+        let (status, raw) = terminal.end();
+        assert_eq!(status, 0, "{}", String::from_utf8_lossy(&raw[raw.len().saturating_sub(3000)..]));
+        counts.quit += 1;
+    } else {
+        terminal.kill();
+        counts.killed += 1;
+    }
+    desk.shrink();
+    // Whatever is left is offered or told of, and can be saved.
+    let mut terminal = desk.start(WINDOW);
+    take_back(&mut terminal);
+    desk.saved(terminal, CHANNEL);
+}
+
+/// Takes in all that is offered; gives whether there was something.
+fn take_back(terminal: &mut Terminal) -> bool {
+    let mut any = false;
+    loop {
+        terminal.wait_until("the first frame", |screen| screen.contents().contains("5 flag") || asks(screen));
+        if !terminal.look(asks) {
+            terminal.settle();
+            return any;
+        }
+        any = true;
+        let before = terminal.bytes();
+        terminal.keys(if terminal.look(|screen| screen.contents().contains("conflict ")) { "H" } else { "r" });
+        terminal.wait_more(before);
+        terminal.wait_until("what was taken", |screen| {
+            let text = screen.contents();
+            asks(screen) || text.contains(" back, not saved yet")
+        });
+        if !terminal.look(asks) {
+            terminal.settle();
+            return any;
+        }
+    }
+}
+
+fn asks(screen: &vt100::Screen) -> bool {
+    let text = screen.contents();
+    text.contains("unsaved work was found") || text.contains("conflict 1 of")
+}
+
+/// A round in which every decision is written down, as soon as the screen shows it.
+struct Careful<'a> {
+    chance: Chance,
+    counts: &'a mut Counts,
+    desk: Desk,
+    terminal: Terminal,
+    /// What must come back, by row; none for a decision that was taken back.
+    made: BTreeMap<u32, Option<char>>,
+    /// What was decided while nothing could be journalled: it may come back.
+    waiting: BTreeMap<u32, Option<char>>,
+    full: bool,
+}
+
+impl<'a> Careful<'a> {
+    fn new(mut chance: Chance, counts: &'a mut Counts) -> Self {
+        let desk = Desk::new();
+        let terminal = desk.start(chance.size());
+        Self { chance, counts, desk, terminal, made: BTreeMap::new(), waiting: BTreeMap::new(), full: false }
+    }
+
+    fn run(mut self) {
+        for _ in 0..10 + self.chance.below(30) {
+            match self.chance.below(12) {
+                0..4 => self.decide(),
+                4..6 => self.resize(),
+                6 => self.disk(),
+                7 if self.chance.one_in(3) => {
+                    self.desk.grow();
+                    self.counts.grown += 1;
+                }
+                _ => self.wander(),
+            }
+        }
+        self.decide();
+        self.end();
+    }
+
+    fn wander(&mut self) {
+        for _ in 0..1 + self.chance.below(6) {
+            self.terminal.keys(self.chance.of_list(&HARMLESS));
+            self.counts.keys += 1;
+        }
+    }
+
+    fn resize(&mut self) {
+        self.terminal.resize(self.chance.size());
+        self.counts.resizes += 1;
+    }
+
+    /// The disk is full, or has room again; then all that was missing is written.
+    fn disk(&mut self) {
+        self.full = !self.full;
+        self.desk.fill(&self.terminal, self.full);
+        if self.full {
+            self.counts.full += 1;
+            return;
+        }
+        self.steady();
+        self.terminal.wait_until("the mark goes", |screen| !title(screen).contains("not journalled"));
+        self.made.append(&mut self.waiting);
+    }
+
+    /// The window in which decisions are made, on their channel, with a result.
+    fn steady(&mut self) {
+        self.terminal.resize(WINDOW);
+        self.terminal.keys("\x1b");
+        self.terminal.keys("\x0c");
+        self.terminal.keys("\x1b");
+        self.terminal.keys("\x0c");
+        self.terminal.keys(&format!("1:channel {CHANNEL}\r"));
+        self.terminal.wait_until("the channel", |screen| title(screen).contains(CHANNEL));
+        self.terminal.settle();
+    }
+
+    fn decide(&mut self) {
+        self.steady();
+        let row = self.chance.of_list(&ROWS);
+        self.terminal.keys(&format!("/#{row}\r"));
+        let key = self.chance.of_list(&["a", "r", "a", "r", "x"]);
+        let decision = match key {
+            "a" => Some('o'),
+            "r" => Some('n'),
+            _ => None,
+        };
+        self.counts.keys += 2;
+        self.terminal.keys(key);
+        // The row is named by the answer, unless the journal has more urgent news.
+        let done = ["accepted", "rejected", "decision taken back:"].map(|word| format!("{word} row {row} "));
+        let none = "no flag under the cursor";
+        self.terminal.wait_until("the decision", |screen| {
+            let text = screen.contents();
+            done.iter().any(|words| text.contains(words)) || text.contains(none) || text.contains("not journalled:")
+        });
+        if self.terminal.look(|screen| screen.contents().contains(none)) {
+            return;
+        }
+        if self.full || not_journalled(&self.terminal) {
+            self.waiting.insert(row, decision);
+        } else {
+            self.made.insert(row, decision);
+        }
+    }
+
+    /// An end, and the next workbench.
+    fn end(mut self) {
+        match self.chance.below(3) {
+            0 => {
+                self.counts.signalled += 1;
+                let (name, status) = self.chance.of_list(&[("TERM", 143), ("HUP", 129), ("INT", 130)]);
+                self.terminal.signal(name);
+                assert_eq!(self.terminal.end().0, status);
+            }
+            _ => {
+                self.counts.killed += 1;
+                self.terminal.kill();
+            }
+        }
+        let mut terminal = self.desk.start(WINDOW);
+        let mut offered = take_back(&mut terminal);
+        let grown = self.desk.has_grown();
+        if grown && offered {
+            self.counts.grown_offered += 1;
+        }
+        if grown && !offered {
+            // Work on a record that has grown since is kept for what it was: there it is offered.
+            terminal.kill();
+            self.desk.shrink();
+            terminal = self.desk.start(WINDOW);
+            offered = take_back(&mut terminal);
+        }
+        let back: BTreeMap<u32, char> = self.desk.saved(terminal, CHANNEL).into_iter().collect();
+        assert!(offered || self.made.values().all(Option::is_none), "nothing was offered of {:?}", self.made);
+        for row in ROWS {
+            let now = back.get(&row).copied();
+            let made = self.made.get(&row).copied().unwrap_or(None);
+            let also = self.waiting.get(&row).copied().unwrap_or(made);
+            assert!(now == made || now == also, "row {row}: {now:?} came back, {made:?} or {also:?} was decided");
+            self.counts.decisions += usize::from(self.made.contains_key(&row));
+        }
+    }
+}
