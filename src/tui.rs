@@ -200,6 +200,7 @@ fn work(
     loop {
         let mut inbox = Vec::new();
         let free = screen.is_free();
+        let written = outside.journal.written();
         select! {
             recv(events) -> event => match event {
                 Ok(event) => take_event(event, &mut normaliser, &mut inbox),
@@ -213,6 +214,10 @@ fn work(
                     Signalled::Suspend => screen.suspend()?,
                     Signalled::Resumed => screen.forget()?,
                 }
+            },
+            recv(written) -> written => match written {
+                Ok(()) => outside.journal.has_written(),
+                Err(_) => outside.journal.give_up(model),
             },
             recv(freed) -> _ => {
                 screen.check()?;
@@ -241,6 +246,12 @@ fn work(
             return Ok(Left::Quit);
         }
         outside.journal.catch_up();
+        // The journal tells of a failure before it says that it is done: a frame without the mark is in the journal.
+        let news = outside.messages.try_iter().collect();
+        if outside.take_all(model, screen, news)? {
+            return Ok(Left::Quit);
+        }
+        model.behind = outside.journal.behind();
         if pace.draws(!still, screen.is_free()) {
             screen.draw(model)?;
         }

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
+use crossbeam_channel::{Receiver, Sender, bounded, never, unbounded};
 
 use super::message::{Fate, JournalNews, Message};
 use super::model::{Model, Overlay, Tone};
@@ -23,7 +23,8 @@ pub use files::folder;
 pub use find::Found;
 pub use writer::Kept;
 
-/// How long a frame may wait for the disk: what the screen shows has been written, unless that takes longer.
+/// How long a frame may wait for the disk: what the screen shows has been written, unless that takes longer. Then the
+/// screen says so.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 /// How long the end of the workbench may wait for the disk, each for the last line and for the file.
@@ -131,6 +132,29 @@ impl Journal {
         while desk.awaited > 0 && desk.written.recv_deadline(deadline).is_ok() {
             desk.awaited -= 1;
         }
+    }
+
+    /// True while something that the screen shows has not been written.
+    pub(super) fn behind(&self) -> bool {
+        self.desk.as_ref().is_some_and(|desk| desk.awaited > 0)
+    }
+
+    /// Gets a message for each change that is written after the frame that shows it: then [`Self::has_written`].
+    pub(super) fn written(&self) -> Receiver<()> {
+        self.desk.as_ref().map_or_else(never, |desk| desk.written.clone())
+    }
+
+    /// A change has been written.
+    pub(super) fn has_written(&mut self) {
+        if let Some(desk) = &mut self.desk {
+            desk.awaited = desk.awaited.saturating_sub(1);
+        }
+    }
+
+    /// The writing thread has panicked, and said so.
+    pub(super) fn give_up(&mut self, model: &mut Model) {
+        self.desk = None;
+        model.not_journalled = Some("the thread that writes the journal has ended".into());
     }
 
     /// Ends it, with all of it on the disk, or with none of it left; gives what is kept, none where there is no journal.

@@ -99,6 +99,8 @@ pub struct Model {
     pub then_open: Option<Request>,
     /// Why changes are not journalled; none while they are, or where no journal is wanted.
     pub not_journalled: Option<String>,
+    /// True while the journal has not yet written what the screen shows: the disk is slow.
+    pub behind: bool,
     /// Edits of the document that the journal does not have yet, as [`Edit::touched`] says.
     pub unjournalled: Vec<Vec<(usize, Vec<u32>)>>,
 }
@@ -174,6 +176,7 @@ impl Model {
             ticket: 0,
             then_open: None,
             not_journalled: None,
+            behind: false,
             unjournalled: Vec::new(),
         }
     }

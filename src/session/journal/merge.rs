@@ -53,7 +53,8 @@ pub struct Merge<'a> {
     entries: &'a [Entry],
     /// The session as the journal's work began.
     base: Session,
-    taken: BTreeSet<Place>,
+    /// Where the session holds; everywhere else the journal does.
+    kept: BTreeSet<Place>,
     conflicts: Vec<Conflict>,
 }
 
@@ -65,7 +66,7 @@ impl<'a> Merge<'a> {
         let base = Session { plans: base.to_vec(), ..session.clone() };
         let mut theirs = base.clone();
         replay(&mut theirs, entries);
-        let mut merge = Self { entries, base, taken: BTreeSet::new(), conflicts: Vec::new() };
+        let mut merge = Self { entries, base, kept: BTreeSet::new(), conflicts: Vec::new() };
         for plan in 0..session.plans.len() {
             if let (Some(here), Some(there)) = (session.plans.get(plan), theirs.plans.get(plan)) {
                 merge.compare(plan, here, there);
@@ -88,10 +89,11 @@ impl<'a> Merge<'a> {
     }
 
     fn settle(&mut self, place: Place, side: Side, about: impl FnOnce() -> Disputed) {
-        match side {
-            Side::Here => {}
-            Side::There => drop(self.taken.insert(place)),
-            Side::Both => self.conflicts.push(Conflict { plan: place.0, about: about() }),
+        if side != Side::There {
+            self.kept.insert(place);
+        }
+        if side == Side::Both {
+            self.conflicts.push(Conflict { plan: place.0, about: about() });
         }
     }
 
@@ -111,7 +113,7 @@ impl<'a> Merge<'a> {
                 Disputed::Decision { row, .. } => Some(row),
                 Disputed::Setup { .. } => None,
             };
-            self.taken.insert((conflict.plan, row));
+            self.kept.remove(&(conflict.plan, row));
         }
         let mut theirs = self.base.clone();
         let mut done = Vec::new();
@@ -131,14 +133,14 @@ impl<'a> Merge<'a> {
         match edit {
             Edit::Decide { plan, changes } => {
                 let decisions = &session.plans.get(*plan)?.decisions;
-                let taken = changes.iter().filter(|change| self.taken.contains(&(*plan, Some(change.row))));
+                let taken = changes.iter().filter(|change| !self.kept.contains(&(*plan, Some(change.row))));
                 let own = taken.map(|c| Change { before: decisions.get(c.row).cloned(), ..c.clone() });
                 let changes: Vec<Change> = own.filter(|c| c.before != c.after).collect();
                 (!changes.is_empty()).then_some(Edit::Decide { plan: *plan, changes })
             }
             Edit::Setup { plan, after, .. } => {
                 let before = &session.plans.get(*plan)?.setup;
-                let taken = self.taken.contains(&(*plan, None)) && *before != **after;
+                let taken = !self.kept.contains(&(*plan, None)) && *before != **after;
                 taken.then(|| Edit::Setup { plan: *plan, before: before.clone().into(), after: after.clone() })
             }
             Edit::Several(_) => None,
@@ -147,10 +149,10 @@ impl<'a> Merge<'a> {
 }
 
 fn side<T: PartialEq>(here: &T, base: &T, there: &T) -> Side {
-    if here == there || there == base {
-        Side::Here
-    } else if here == base {
+    if here == base {
         Side::There
+    } else if here == there || there == base {
+        Side::Here
     } else {
         Side::Both
     }

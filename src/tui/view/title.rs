@@ -50,7 +50,7 @@ fn left_side(model: &Model, width: usize) -> Line<'static> {
 fn right_side(model: &Model, width: u16) -> Line<'static> {
     let (theme, glyphs, state) = (&model.theme, model.glyphs, model.state());
     let mut spans = Vec::new();
-    if model.not_journalled.is_some() {
+    if model.not_journalled.is_some() || model.behind {
         spans.push(Span::styled("not journalled ", theme.error));
     }
     match &state.drawn {
