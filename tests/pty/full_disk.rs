@@ -27,7 +27,7 @@ fn what_a_full_disk_refuses_is_shown_as_long_as_it_lasts_and_written_when_there_
     // Room for a part of a line.
     limit_files(&terminal, Some(length(&desk) + 20));
     terminal.keys("r");
-    terminal.wait_for("changes are not journalled: ");
+    terminal.wait_for("changes are not journalled:");
     for (key, words) in [("a", "accepted row 200"), ("r", "rejected row 222"), (".", "k 4.0 → 4.1")] {
         terminal.keys(key);
         terminal.wait_for(words);
@@ -55,7 +55,7 @@ fn a_signal_says_what_is_lost_while_the_disk_is_full() {
     // Not even the first line.
     limit_files(&terminal, Some(10));
     terminal.keys("a");
-    terminal.wait_for("changes are not journalled: ");
+    terminal.wait_for("changes are not journalled:");
     terminal.signal("TERM");
     let (status, raw) = terminal.end();
     let text = String::from_utf8_lossy(&raw);
@@ -68,7 +68,7 @@ fn a_signal_says_what_is_lost_while_the_disk_is_full() {
     desk.wait_for_journals(1);
     limit_files(&terminal, Some(length(&desk)));
     terminal.keys("r");
-    terminal.wait_for("changes are not journalled: ");
+    terminal.wait_for("changes are not journalled:");
     terminal.keys("a");
     terminal.wait_for("accepted row 200");
     terminal.signal("TERM");

@@ -202,7 +202,7 @@ fn without_a_journal_the_workbench_works_and_says_so() {
     // A file stands where the folder should be made.
     std::fs::write(desk.state.path().join("wildpoint"), "").unwrap();
     let mut terminal = desk.start("demo.csv");
-    terminal.wait_for("no journal: ");
+    terminal.wait_for("changes are not journalled:");
     terminal.settle();
     terminal.keys("a");
     terminal.wait_for("accepted row 61");

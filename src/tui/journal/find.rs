@@ -42,7 +42,7 @@ pub struct Found {
     pub session: Option<PathBuf>,
     /// True when that file is not what it was then, or gone.
     pub session_changed: bool,
-    /// The plans that the work began from, one for each of the session.
+    /// The plans that this work and the session both began from, one for each of the session.
     pub base: Vec<Plan>,
     /// A channel of it that is not loaded: it cannot be taken in without losing something.
     pub missing: Option<String>,
@@ -178,8 +178,9 @@ impl Wanted<'_> {
         }
     }
 
-    /// The plans that the work began from: as the journal tells or, when it began with work that was carried over, as
-    /// they are in the session file, if it is still the same. Where neither is known, nothing was decided.
+    /// The plans that the work began from, as far as the session that is open began from them too: as the journal tells
+    /// or, when it began with work that was carried over, as they are in the session file, if it is still the same.
+    /// Where neither is known, nothing was decided.
     fn base(&self, journal: &Journal, session: Option<&Path>) -> Vec<Plan> {
         let begun = journal.entries.iter().take(journal.header.begun).filter_map(|entry| match entry {
             Entry::Whole(plan) => Some(plan.as_ref().clone()),
@@ -190,9 +191,16 @@ impl Wanted<'_> {
         } else {
             session.and_then(|path| session::read(path).ok()).map(|s| s.plans).unwrap_or_default()
         };
-        let plan = |plan: &Plan| match known.iter().find(|known| known.channel == plan.channel) {
-            Some(known) => known.clone(),
-            None => Plan { decisions: Decisions::default(), ..plan.clone() },
+        let plan = |opened: &Plan| {
+            let mut base = Plan { decisions: Decisions::default(), ..opened.clone() };
+            let Some(known) = known.iter().find(|known| known.channel == opened.channel) else { return base };
+            // What a session file says that is not open is as good as new here.
+            if self.file.is_some() {
+                base.setup = known.setup.clone();
+            }
+            let shared = known.decisions.iter().filter(|(row, _)| opened.decisions.get(*row).is_some());
+            shared.for_each(|(row, decision)| base.decisions.set(row, Some(decision.clone())));
+            base
         };
         self.session.plans.iter().map(plan).collect()
     }

@@ -79,9 +79,8 @@ impl Printer {
         self.state().waiting.clear();
         let deadline = Instant::now() + PATIENCE;
         while Instant::now() < deadline {
-            // What the system holds for the terminal goes, so that the write that is blocked ends.
             #[cfg(unix)]
-            let _ = rustix::termios::tcflush(io::stdout(), rustix::termios::QueueSelector::OFlush);
+            let _ = discard();
             if self.wait(Duration::from_millis(10)) {
                 return self.print(CANCEL).is_ok();
             }
@@ -123,6 +122,16 @@ impl Printer {
             }
         }
     }
+}
+
+/// What the system holds for the terminal goes, so that the write that is blocked ends. Making room does not wake it up;
+/// setting the modes does, to what they are.
+#[cfg(unix)]
+fn discard() -> rustix::io::Result<()> {
+    use rustix::termios::{OptionalActions, QueueSelector, tcflush, tcgetattr, tcsetattr};
+    let terminal = rustix::stdio::stdout();
+    tcflush(terminal, QueueSelector::OFlush)?;
+    tcsetattr(terminal, OptionalActions::Now, &tcgetattr(terminal)?)
 }
 
 /// Collects a frame, and hands it over as one piece when it is flushed.

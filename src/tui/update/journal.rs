@@ -11,7 +11,8 @@ use super::history;
 pub(in super::super) fn news(model: &mut Model, news: JournalNews) {
     match news {
         JournalNews::Failing(e) => {
-            let why = e.to_string().replace("\n  ", "; ");
+            // The way out is another one than the error names: it is tried again by itself.
+            let why = e.to_string().lines().next().unwrap_or_default().to_owned();
             model.say(Tone::Error, not_journalled(&why));
             model.not_journalled = Some(why);
         }

@@ -13,7 +13,7 @@ use super::super::terminal::{Terminal, title};
 pub(super) const WINDOW: (u16, u16) = (110, 30);
 
 /// The length of the record before it grows.
-const RECORD: &[u8] = include_bytes!("../../data/demo.csv");
+const RECORD: &[u8] = include_bytes!("../../../data/demo.csv");
 
 pub(super) struct Desk {
     folder: Folder,
