@@ -120,6 +120,16 @@ fn asks(screen: &vt100::Screen) -> bool {
     text.contains("unsaved work was found") || text.contains("conflict 1 of")
 }
 
+/// What the program says where there is nothing to decide on.
+const NO_FLAG: &str = "no flag under the cursor";
+
+/// What the screen says of a decision.
+fn answer(screen: &vt100::Screen) -> Option<&'static str> {
+    let text = screen.contents();
+    let words = [NO_FLAG, "accepted", "rejected", "decision taken back:"];
+    words.into_iter().find(|words| text.contains(&format!(" {words}{}", if *words == NO_FLAG { "" } else { " row" })))
+}
+
 /// A round in which every decision is written down, as soon as the screen shows it.
 struct Careful<'a> {
     chance: Chance,
@@ -137,6 +147,8 @@ impl<'a> Careful<'a> {
     fn new(mut chance: Chance, counts: &'a mut Counts) -> Self {
         let desk = Desk::new();
         let terminal = desk.start(chance.size());
+        // Keys before the terminal is the program's would be changed on their way.
+        terminal.wait_more(0);
         Self { chance, counts, desk, terminal, made: BTreeMap::new(), waiting: BTreeMap::new(), full: false }
     }
 
@@ -190,7 +202,8 @@ impl<'a> Careful<'a> {
         self.terminal.keys("\x1b");
         self.terminal.keys("\x0c");
         self.terminal.keys(&format!("1:channel {CHANNEL}\r"));
-        self.terminal.wait_until("the channel", |screen| title(screen).contains(CHANNEL));
+        // What was said of the decision before is no answer to the next.
+        self.terminal.wait_until("the channel", |screen| title(screen).contains(CHANNEL) && answer(screen).is_none());
         self.terminal.settle();
     }
 
@@ -206,15 +219,17 @@ impl<'a> Careful<'a> {
         };
         self.counts.keys += 2;
         self.terminal.keys(key);
-        // The row is named by the answer, unless the journal has more urgent news.
-        let done = ["accepted", "rejected", "decision taken back:"].map(|word| format!("{word} row {row} "));
-        let none = "no flag under the cursor";
+        // The answer names the row, unless the journal has more urgent news.
         self.terminal.wait_until("the decision", |screen| {
-            let text = screen.contents();
-            done.iter().any(|words| text.contains(words)) || text.contains(none) || text.contains("not journalled:")
+            answer(screen).is_some() || self.full && screen.contents().contains("not journalled:")
         });
-        if self.terminal.look(|screen| screen.contents().contains(none)) {
-            return;
+        match self.terminal.look(answer) {
+            Some(NO_FLAG) => return,
+            Some(words) => {
+                let said = self.terminal.look(|screen| screen.contents().contains(&format!("{words} row {row} ")));
+                assert!(said, "row {row} was decided on: {}", self.terminal.look(vt100::Screen::contents));
+            }
+            None => {}
         }
         if self.full || not_journalled(&self.terminal) {
             self.waiting.insert(row, decision);
