@@ -81,7 +81,9 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
         Message::Paste(text) => overlay::paste(model, &text),
         Message::Resize(width, height) => {
             model.size = (width, height);
-            Vec::new()
+            // Between two looks at it the window may have been smaller, and have lost what it showed, though its size is
+            // the same now.
+            vec![Effect::Redraw]
         }
         Message::Analysed { generation, plan, result } => analysed(model, generation, plan, result),
         Message::Advised { plan, advice } => {

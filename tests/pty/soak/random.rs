@@ -35,8 +35,8 @@ impl Chance {
     }
 }
 
-/// Keys that decide nothing and neither save nor quit.
-pub(super) const HARMLESS: [&str; 48] = [
+/// Keys that decide nothing, open no list and neither save nor quit.
+pub(super) const HARMLESS: [&str; 47] = [
     "n",
     "p",
     "N",
@@ -56,7 +56,6 @@ pub(super) const HARMLESS: [&str; 48] = [
     "t",
     "b",
     "d",
-    "V",
     ",",
     ".",
     ";",
@@ -89,7 +88,7 @@ pub(super) const HARMLESS: [&str; 48] = [
 
 /// All sorts of keys and what looks like keys, decisions, lists, prompts and torn sequences included; nothing that stops
 /// the program or writes outside its folder.
-pub(super) const ANYTHING: [&str; 64] = [
+pub(super) const ANYTHING: [&str; 65] = [
     "a",
     "r",
     " ",
@@ -111,6 +110,7 @@ pub(super) const ANYTHING: [&str; 64] = [
     "\r",
     "\x1b",
     "m",
+    "V",
     "e",
     "D",
     "?",

@@ -197,10 +197,7 @@ impl<'a> Careful<'a> {
     /// The window in which decisions are made, on their channel, with a result.
     fn steady(&mut self) {
         self.terminal.resize(WINDOW);
-        self.terminal.keys("\x1b");
-        self.terminal.keys("\x0c");
-        self.terminal.keys("\x1b");
-        self.terminal.keys("\x0c");
+        // No list is open: an Esc would stop the computation that `settle` waits for.
         self.terminal.keys(&format!("1:channel {CHANNEL}\r"));
         // What was said of the decision before is no answer to the next.
         self.terminal.wait_until("the channel", |screen| title(screen).contains(CHANNEL) && answer(screen).is_none());
