@@ -212,7 +212,11 @@ fn work(
                 match signal {
                     Signalled::End(signal) => return Ok(Left::Signalled(signal)),
                     Signalled::Suspend => screen.suspend()?,
-                    Signalled::Resumed => screen.forget()?,
+                    Signalled::Resumed => screen.forget(),
+                    Signalled::Resized => {
+                        let (width, height) = screen.size()?;
+                        inbox.push(Message::Resize(width, height));
+                    }
                 }
             },
             recv(written) -> written => match written {
@@ -265,6 +269,8 @@ fn take_event(event: Event, normaliser: &mut Normaliser, inbox: &mut Vec<Message
         }
         Event::Mouse(event) => inbox.push(Message::Mouse(event)),
         Event::Paste(text) => inbox.push(Message::Paste(text)),
+        // Elsewhere a signal says so: the reader of events may miss it while keys come.
+        #[cfg(not(unix))]
         Event::Resize(width, height) => inbox.push(Message::Resize(width, height)),
         _ => {}
     }

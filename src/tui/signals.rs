@@ -16,6 +16,8 @@ pub(super) enum Signalled {
     End(i32),
     Suspend,
     Resumed,
+    /// The window has another size.
+    Resized,
 }
 
 /// The signal that says that the terminal is gone.
@@ -23,9 +25,10 @@ pub(super) const HANG_UP: i32 = 1;
 
 #[cfg(unix)]
 pub(super) fn listen() -> Result<Receiver<Signalled>> {
-    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
-    let mut signals = signal_hook::iterator::Signals::new([SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGTSTP, SIGCONT])
-        .map_err(|source| Error::Io { action: "listen for", path: "signals".into(), source })?;
+    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH};
+    let mut signals =
+        signal_hook::iterator::Signals::new([SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH])
+            .map_err(|source| Error::Io { action: "listen for", path: "signals".into(), source })?;
     let (sender, receiver) = crossbeam_channel::unbounded();
     let of_input = sender.clone();
     std::thread::spawn(move || {
@@ -38,6 +41,7 @@ pub(super) fn listen() -> Result<Receiver<Signalled>> {
             let meaning = match signal {
                 SIGTSTP => Signalled::Suspend,
                 SIGCONT => Signalled::Resumed,
+                SIGWINCH => Signalled::Resized,
                 other => Signalled::End(other),
             };
             if sender.send(meaning).is_err() {

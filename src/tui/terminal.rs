@@ -41,7 +41,11 @@ const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
 /// The screen of the workbench. It gives the terminal back itself: what is inside is never dropped, since its own
 /// `Drop` complains on standard error when it cannot show the cursor, which panics where the whole terminal is gone.
-pub(super) struct Screen(ManuallyDrop<Terminal<Wire<Sheet>>>);
+pub(super) struct Screen {
+    terminal: ManuallyDrop<Terminal<Wire<Sheet>>>,
+    /// True when the next frame is drawn whole, whatever the terminal shows.
+    whole: bool,
+}
 
 impl Screen {
     /// Takes the terminal over, and with `mouse` the mouse.
@@ -52,26 +56,30 @@ impl Screen {
         give_back_on_panic();
         enter()?;
         let backend = Wire::new(Sheet::default());
-        Terminal::new(backend).map(|terminal| Self(ManuallyDrop::new(terminal))).map_err(failed)
+        let terminal = Terminal::new(backend).map_err(failed)?;
+        Ok(Self { terminal: ManuallyDrop::new(terminal), whole: false })
     }
 
     /// Columns and rows.
     pub(super) fn size(&self) -> Result<(u16, u16)> {
-        self.0.size().map(|s| (s.width, s.height)).map_err(failed)
+        self.terminal.size().map(|s| (s.width, s.height)).map_err(failed)
     }
 
     /// Draws the model; terminals that can, show the frame at once.
     pub(super) fn draw(&mut self, model: &Model) -> Result<()> {
-        queue!(self.0.backend_mut(), BeginSynchronizedUpdate).map_err(failed)?;
+        queue!(self.terminal.backend_mut(), BeginSynchronizedUpdate).map_err(failed)?;
+        if std::mem::take(&mut self.whole) {
+            self.clear()?;
+        }
         let drawing = |frame: &mut ratatui::Frame<'_>| {
             view(model, frame);
             plain_blanks(frame.buffer_mut());
         };
-        self.0.draw(drawing).map_err(failed)?;
+        self.terminal.draw(drawing).map_err(failed)?;
         #[cfg(debug_assertions)]
         panic_on_demand();
-        queue!(self.0.backend_mut(), EndSynchronizedUpdate).map_err(failed)?;
-        std::io::Write::flush(self.0.backend_mut()).map_err(failed)
+        queue!(self.terminal.backend_mut(), EndSynchronizedUpdate).map_err(failed)?;
+        std::io::Write::flush(self.terminal.backend_mut()).map_err(failed)
     }
 
     /// True when the terminal has taken all that was drawn.
@@ -89,11 +97,15 @@ impl Screen {
         printer().print(&[]).map_err(failed)
     }
 
-    /// Forgets what the terminal shows, so that the next frame is drawn whole. (`Terminal::clear` would ask the
-    /// terminal where its cursor is and wait for the answer.)
-    pub(super) fn forget(&mut self) -> Result<()> {
+    /// Forgets what the terminal shows, so that the next frame is drawn whole.
+    pub(super) fn forget(&mut self) {
+        self.whole = true;
+    }
+
+    /// Clears the terminal. (`Terminal::clear` would ask it where its cursor is and wait for the answer.)
+    fn clear(&mut self) -> Result<()> {
         let (width, height) = self.size()?;
-        self.0.resize(Rect { x: 0, y: 0, width, height }).map_err(failed)
+        self.terminal.resize(Rect { x: 0, y: 0, width, height }).map_err(failed)
     }
 
     /// Takes the mouse, or gives it to the terminal.
@@ -108,7 +120,7 @@ impl Screen {
     }
 
     fn say(&mut self, sequence: &str) -> Result<()> {
-        let terminal = self.0.backend_mut();
+        let terminal = self.terminal.backend_mut();
         terminal.write_all(sequence.as_bytes()).and_then(|()| std::io::Write::flush(terminal)).map_err(failed)
     }
 
@@ -118,7 +130,8 @@ impl Screen {
         #[cfg(unix)]
         signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP).map_err(failed)?;
         enter()?;
-        self.forget()
+        self.forget();
+        Ok(())
     }
 }
 
