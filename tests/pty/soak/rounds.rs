@@ -206,6 +206,7 @@ impl<'a> Careful<'a> {
 
     fn decide(&mut self) {
         self.steady();
+        let failing = not_journalled(&self.terminal);
         let row = self.chance.of_list(&ROWS);
         self.terminal.keys(&format!("/#{row}\r"));
         let key = self.chance.of_list(&["a", "r", "a", "r", "x"]);
@@ -216,9 +217,10 @@ impl<'a> Careful<'a> {
         };
         self.counts.keys += 2;
         self.terminal.keys(key);
-        // The answer names the row, unless the journal has more urgent news.
+        // The answer names the row, unless the journal has more urgent news: that this decision could not be written.
+        let news = self.full && !failing;
         self.terminal.wait_until("the decision", |screen| {
-            answer(screen).is_some() || self.full && screen.contents().contains("not journalled:")
+            answer(screen).is_some() || news && screen.contents().contains("not journalled:")
         });
         match self.terminal.look(answer) {
             Some(NO_FLAG) => return,
