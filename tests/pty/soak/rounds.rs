@@ -141,6 +141,8 @@ struct Careful<'a> {
     /// What was decided while nothing could be journalled: it may come back.
     waiting: BTreeMap<u32, Option<char>>,
     full: bool,
+    /// What was done, for whoever has to find out what went wrong.
+    deeds: Vec<String>,
 }
 
 impl<'a> Careful<'a> {
@@ -149,7 +151,16 @@ impl<'a> Careful<'a> {
         let terminal = desk.start(chance.size());
         // Keys before the terminal is the program's would be changed on their way.
         terminal.wait_more(0);
-        Self { chance, counts, desk, terminal, made: BTreeMap::new(), waiting: BTreeMap::new(), full: false }
+        Self {
+            chance,
+            counts,
+            desk,
+            terminal,
+            made: BTreeMap::new(),
+            waiting: BTreeMap::new(),
+            full: false,
+            deeds: Vec::new(),
+        }
     }
 
     fn run(mut self) {
@@ -160,6 +171,7 @@ impl<'a> Careful<'a> {
                 6 => self.disk(),
                 7 if self.chance.one_in(3) => {
                     self.desk.grow();
+                    self.deeds.push("grown".into());
                     self.counts.grown += 1;
                 }
                 _ => self.wander(),
@@ -185,6 +197,7 @@ impl<'a> Careful<'a> {
     fn disk(&mut self) {
         self.full = !self.full;
         self.desk.fill(&self.terminal, self.full);
+        self.deeds.push(format!("full: {}", self.full));
         if self.full {
             self.counts.full += 1;
             return;
@@ -230,7 +243,9 @@ impl<'a> Careful<'a> {
             }
             None => {}
         }
+        self.deeds.push(format!("{key}{row}, answer {:?}", self.terminal.look(answer)));
         if self.full || not_journalled(&self.terminal) {
+            self.deeds.push("not journalled".into());
             self.waiting.insert(row, decision);
         } else {
             self.made.insert(row, decision);
@@ -270,7 +285,11 @@ impl<'a> Careful<'a> {
             let now = back.get(&row).copied();
             let made = self.made.get(&row).copied().unwrap_or(None);
             let also = self.waiting.get(&row).copied().unwrap_or(made);
-            assert!(now == made || now == also, "row {row}: {now:?} came back, {made:?} or {also:?} was decided");
+            assert!(
+                now == made || now == also,
+                "row {row}: {now:?} came back, {made:?} or {also:?} was decided: {:#?}",
+                self.deeds
+            );
             self.counts.decisions += usize::from(self.made.contains_key(&row));
         }
     }
