@@ -95,29 +95,27 @@ fn anything(chance: &mut Chance, counts: &mut Counts) {
 fn take_back(terminal: &mut Terminal) -> bool {
     let mut any = false;
     loop {
-        terminal.wait_until("the first frame", |screen| screen.contents().contains("5 flag") || asks(screen));
-        if !terminal.look(asks) {
+        terminal
+            .wait_until("the first frame", |screen| screen.contents().contains("5 flag") || question(screen).is_some());
+        let Some(asked) = terminal.look(question) else {
             terminal.settle();
             return any;
-        }
+        };
         any = true;
-        let before = terminal.bytes();
-        terminal.keys(if terminal.look(|screen| screen.contents().contains("conflict ")) { "H" } else { "r" });
-        terminal.wait_more(before);
-        terminal.wait_until("what was taken", |screen| {
-            let text = screen.contents();
-            asks(screen) || text.contains(" back, not saved yet")
-        });
-        if !terminal.look(asks) {
-            terminal.settle();
-            return any;
-        }
+        terminal.keys(if asked.starts_with("conflict") { "H" } else { "r" });
+        // A key too many would decide on a flag.
+        terminal.wait_until("another question, or none", |screen| question(screen).as_ref() != Some(&asked));
     }
 }
 
-fn asks(screen: &vt100::Screen) -> bool {
+/// Which question about unsaved work lies over the panels, if any: no two that follow each other are the same.
+fn question(screen: &vt100::Screen) -> Option<String> {
     let text = screen.contents();
-    text.contains("unsaved work was found") || text.contains("conflict 1 of")
+    let line = |words: &str| text.lines().find(|line| line.contains(words)).map(str::to_owned);
+    if let Some(conflict) = line("conflict ") {
+        return Some(format!("conflict {conflict}"));
+    }
+    line("unsaved work was found").map(|_| line("more after this").unwrap_or_default())
 }
 
 /// What the program says where there is nothing to decide on.
