@@ -22,7 +22,7 @@ use input::Normaliser;
 use message::{Effect, Message};
 use model::{Model, Tone};
 use office::Judge;
-use outside::Outside;
+use outside::{Next, Outside};
 use pace::Pace;
 use plot::Glyphs;
 pub use signals::Ended;
@@ -208,16 +208,12 @@ fn work(
                 Err(_) => return Ok(Left::Signalled(HANG_UP)),
             },
             recv(outside.messages) -> message => inbox.extend(message),
-            recv(signals) -> signal => if let Ok(signal) = signal {
-                match signal {
-                    Signalled::End(signal) => return Ok(Left::Signalled(signal)),
-                    Signalled::Suspend => screen.suspend()?,
-                    Signalled::Resumed => screen.forget(),
-                    Signalled::Resized => {
-                        let (width, height) = screen.size()?;
-                        inbox.push(Message::Resize(width, height));
-                    }
-                }
+            recv(signals) -> signal => match signal {
+                Ok(Signalled::End(signal)) => return Ok(Left::Signalled(signal)),
+                Ok(Signalled::Suspend) => screen.suspend()?,
+                Ok(Signalled::Resumed) => screen.forget(),
+                Ok(Signalled::Resized) => inbox.push(screen.size().map(|(w, h)| Message::Resize(w, h))?),
+                Err(_) => {}
             },
             recv(written) -> written => match written {
                 Ok(()) => outside.journal.has_written(),
@@ -241,25 +237,39 @@ fn work(
         // A burst of keys is drawn once.
         events.try_iter().for_each(|event| take_event(event, &mut normaliser, &mut inbox));
         inbox.extend(outside.messages.try_iter());
-        // Advice that no panel shows changes nothing on the screen: nothing goes over the wire.
-        let unseen = |m: &Message| matches!(m, Message::Advised { .. } | Message::NoAdvice);
-        let panel = layout::arrange(model, model.screen()).is_some_and(|areas| areas.parameters.is_some());
-        let still = !panel && !inbox.is_empty() && inbox.iter().all(unseen);
-        let leaves = outside.take_all(model, screen, inbox)? || outside.await_result(model, screen)?;
-        if leaves {
+        if take_in(model, outside, screen, &mut pace, inbox)? == Next::Leave {
             return Ok(Left::Quit);
-        }
-        outside.journal.catch_up();
-        // The journal tells of a failure before it says that it is done: a frame without the mark is in the journal.
-        let news = outside.messages.try_iter().collect();
-        if outside.take_all(model, screen, news)? {
-            return Ok(Left::Quit);
-        }
-        model.behind = outside.journal.behind();
-        if pace.draws(!still, screen.is_free()) {
-            screen.draw(model)?;
         }
     }
+}
+
+/// Takes in what has come, and draws what it changes as soon as the journal has it.
+fn take_in(
+    model: &mut Model,
+    outside: &mut Outside,
+    screen: &mut Screen,
+    pace: &mut Pace,
+    inbox: Vec<Message>,
+) -> Result<Next> {
+    // Advice that no panel shows changes nothing on the screen: nothing goes over the wire.
+    let unseen = |m: &Message| matches!(m, Message::Advised { .. } | Message::NoAdvice);
+    let panel = layout::arrange(model, model.screen()).is_some_and(|areas| areas.parameters.is_some());
+    let still = !panel && !inbox.is_empty() && inbox.iter().all(unseen);
+    let leaves = outside.take_all(model, screen, inbox)? || outside.await_result(model, screen)?;
+    if leaves {
+        return Ok(Next::Leave);
+    }
+    outside.journal.catch_up();
+    // The journal tells of a failure before it says that it is done: a frame without the mark is in the journal.
+    let news = outside.messages.try_iter().collect();
+    if outside.take_all(model, screen, news)? {
+        return Ok(Next::Leave);
+    }
+    model.behind = outside.journal.behind();
+    if pace.draws(!still, screen.is_free()) {
+        screen.draw(model)?;
+    }
+    Ok(Next::Stay)
 }
 
 fn take_event(event: Event, normaliser: &mut Normaliser, inbox: &mut Vec<Message>) {

@@ -139,6 +139,7 @@ struct Careful<'a> {
     /// What was decided while nothing could be journalled: it may come back.
     waiting: BTreeMap<u32, Option<char>>,
     full: bool,
+    steps: usize,
     /// What was done, for whoever has to find out what went wrong.
     deeds: Vec<String>,
 }
@@ -157,6 +158,7 @@ impl<'a> Careful<'a> {
             made: BTreeMap::new(),
             waiting: BTreeMap::new(),
             full: false,
+            steps: 0,
             deeds: Vec::new(),
         }
     }
@@ -208,8 +210,13 @@ impl<'a> Careful<'a> {
     /// The window in which decisions are made, on their channel, with a result.
     fn steady(&mut self) {
         self.terminal.resize(WINDOW);
-        // No list is open: an Esc would stop the computation that `settle` waits for.
-        self.terminal.keys(&format!("1:channel {CHANNEL}\r"));
+        // All keys before have been acted on when the screen shows a word that has not been typed before. Esc and a digit
+        // that arrive together are Esc, which leaves the prompt and stops no computation, and the digit.
+        self.steps += 1;
+        let word = format!(":sync{}.", self.steps);
+        self.terminal.keys(&word);
+        self.terminal.wait_for(&word);
+        self.terminal.keys(&format!("\x1b1:channel {CHANNEL}\r"));
         // What was said of the decision before is no answer to the next.
         self.terminal.wait_until("the channel", |screen| title(screen).contains(CHANNEL) && answer(screen).is_none());
         self.terminal.settle();
