@@ -83,6 +83,9 @@ pub fn run(command: Command, out: &mut dyn Write) -> Result<Ending> {
     }
 }
 
+/// Threads a core at most: more do no work sooner.
+const THREADS_PER_CORE: usize = 4;
+
 /// Limits the worker threads to `threads`.
 ///
 /// # Errors
@@ -92,8 +95,14 @@ pub fn set_threads(threads: Option<usize>) -> Result<()> {
     if threads == 0 {
         return Err(Error::usage("--threads 0: no thread, no work", "give 1 or more, or leave it out for all cores"));
     }
+    let most = std::thread::available_parallelism().map_or(1, usize::from) * THREADS_PER_CORE;
+    if threads > most {
+        // Thousands of threads take minutes to start, and then wait for each other.
+        let _ =
+            writeln!(std::io::stderr(), "wildpoint: --threads {threads}: {most} are used, {THREADS_PER_CORE} a core");
+    }
     // It can only have been set before by an earlier call in the same process, which keeps its setting.
-    let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+    let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.min(most)).build_global();
     Ok(())
 }
 

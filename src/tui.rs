@@ -22,7 +22,7 @@ use input::Normaliser;
 use message::{Effect, Message};
 use model::{Model, Tone};
 use office::Judge;
-use outside::Outside;
+use outside::{Next, Outside};
 use pace::Pace;
 use plot::Glyphs;
 pub use signals::Ended;
@@ -173,7 +173,7 @@ pub fn run(opening: Opening, look: Look, config: Config, journal: Option<PathBuf
     drop(screen);
     Ok(match left? {
         Left::Quit => Ended::default(),
-        Left::Signalled(signal) => Ended::by(signal, &model, kept.as_deref()),
+        Left::Signalled(signal) => Ended::by(signal, &model, kept.as_ref()),
     })
 }
 
@@ -198,9 +198,12 @@ fn work(
     outside.carry_out(model, screen, first)?;
     let events = listen_for_events();
     let mut normaliser = Normaliser::default();
+    let freed = screen.freed();
     screen.draw(model)?;
     loop {
         let mut inbox = Vec::new();
+        let free = screen.is_free();
+        let written = outside.journal.written();
         select! {
             recv(events) -> event => match event {
                 Ok(event) => take_event(event, &mut normaliser, &mut inbox),
@@ -208,18 +211,28 @@ fn work(
                 Err(_) => return Ok(Left::Signalled(HANG_UP)),
             },
             recv(outside.messages) -> message => inbox.extend(message),
-            recv(signals) -> signal => if let Ok(signal) = signal {
-                match signal {
-                    Signalled::End(signal) => return Ok(Left::Signalled(signal)),
-                    Signalled::Suspend => screen.suspend()?,
-                    Signalled::Resumed => screen.forget()?,
+            recv(signals) -> signal => match signal {
+                Ok(Signalled::End(signal)) => return Ok(Left::Signalled(signal)),
+                Ok(Signalled::Suspend) => screen.suspend()?,
+                Ok(Signalled::Resumed) => screen.forget(),
+                Ok(Signalled::Resized) => inbox.push(screen.size().map(|(w, h)| Message::Resize(w, h))?),
+                Err(_) => {}
+            },
+            recv(written) -> written => match written {
+                Ok(()) => outside.journal.has_written(),
+                Err(_) => outside.journal.give_up(model),
+            },
+            recv(freed) -> _ => {
+                screen.check()?;
+                if !pace.owes() {
+                    continue;
                 }
             },
-            default(pace.patience(normaliser.waits())) => {
-                let key = if pace.frame_is_due() { None } else { normaliser.flush() };
-                match key {
+            default(pace.patience(normaliser.waits(), free)) => {
+                let due = pace.frame_is_due(free);
+                match if due { None } else { normaliser.flush() } {
                     Some(key) => inbox.push(Message::Key(key)),
-                    None if pace.frame_is_due() => {}
+                    None if due => {}
                     None => continue,
                 }
             },
@@ -227,19 +240,39 @@ fn work(
         // A burst of keys is drawn once.
         events.try_iter().for_each(|event| take_event(event, &mut normaliser, &mut inbox));
         inbox.extend(outside.messages.try_iter());
-        // Advice that no panel shows changes nothing on the screen: nothing goes over the wire.
-        let unseen = |m: &Message| matches!(m, Message::Advised { .. } | Message::NoAdvice);
-        let panel = layout::arrange(model).is_some_and(|areas| areas.parameters.is_some());
-        let still = !panel && !inbox.is_empty() && inbox.iter().all(unseen);
-        let leaves = outside.take_all(model, screen, inbox)? || outside.await_result(model, screen)?;
-        if leaves {
+        if take_in(model, outside, screen, &mut pace, inbox)? == Next::Leave {
             return Ok(Left::Quit);
         }
-        outside.journal.catch_up();
-        if pace.draws(!still) {
-            screen.draw(model)?;
-        }
     }
+}
+
+/// Takes in what has come, and draws what it changes as soon as the journal has it.
+fn take_in(
+    model: &mut Model,
+    outside: &mut Outside,
+    screen: &mut Screen,
+    pace: &mut Pace,
+    inbox: Vec<Message>,
+) -> Result<Next> {
+    // Advice that no panel shows changes nothing on the screen: nothing goes over the wire.
+    let unseen = |m: &Message| matches!(m, Message::Advised { .. } | Message::NoAdvice);
+    let panel = layout::arrange(model, model.screen()).is_some_and(|areas| areas.parameters.is_some());
+    let still = !panel && !inbox.is_empty() && inbox.iter().all(unseen);
+    let leaves = outside.take_all(model, screen, inbox)? || outside.await_result(model, screen)?;
+    if leaves {
+        return Ok(Next::Leave);
+    }
+    outside.journal.catch_up();
+    // The journal tells of a failure before it says that it is done: a frame without the mark is in the journal.
+    let news = outside.messages.try_iter().collect();
+    if outside.take_all(model, screen, news)? {
+        return Ok(Next::Leave);
+    }
+    model.behind = outside.journal.behind();
+    if pace.draws(!still, screen.is_free()) {
+        screen.draw(model)?;
+    }
+    Ok(Next::Stay)
 }
 
 fn take_event(event: Event, normaliser: &mut Normaliser, inbox: &mut Vec<Message>) {
@@ -249,6 +282,8 @@ fn take_event(event: Event, normaliser: &mut Normaliser, inbox: &mut Vec<Message
         }
         Event::Mouse(event) => inbox.push(Message::Mouse(event)),
         Event::Paste(text) => inbox.push(Message::Paste(text)),
+        // Elsewhere a signal says so: the reader of events may miss it while keys come.
+        #[cfg(not(unix))]
         Event::Resize(width, height) => inbox.push(Message::Resize(width, height)),
         _ => {}
     }

@@ -5,6 +5,8 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use proptest::strategy::{Strategy, ValueTree};
+use proptest::test_runner::TestRunner;
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
@@ -85,6 +87,51 @@ fn frame(model: &Model) -> Buffer {
 
 /// Everything that can lie on the screen, by the keys that lead there from the panels.
 const SCREENS: [&str; 14] = ["", "n", "z", "3", "4", "5", "?", "m", "D", ":", ":channel ", "/", "a:w x", "dY"];
+
+/// Sizes at which the layout changes, and the ends of what may come.
+const EDGES: ([u16; 16], [u16; 13]) = (
+    [0, 1, 2, 3, 39, 40, 59, 60, 72, 80, 109, 110, 120, 160, 230, 1000],
+    [0, 1, 2, 3, 9, 10, 15, 16, 20, 24, 36, 60, 300],
+);
+
+/// What is drawn into an area while the last message about the size of the terminal said another.
+fn drawn(model: &mut Model, told: (u16, u16), area: (u16, u16)) -> Buffer {
+    model.size = told;
+    let area = Rect::new(0, 0, area.0, area.1);
+    let mut buffer = Buffer::empty(area);
+    view::draw(model, area, &mut buffer);
+    buffer
+}
+
+/// The window may have been resized since: nothing goes beyond the area, and what is drawn depends on it alone.
+fn assert_laid_out_from_its_area(model: &mut Model, told: (u16, u16), area: (u16, u16), what: &str) {
+    let other = drawn(model, told, area);
+    assert!(other == drawn(model, area, area), "{what}: {area:?} is drawn otherwise when {told:?} was told");
+}
+
+#[test]
+fn a_frame_is_laid_out_from_the_area_it_is_drawn_into_and_from_nothing_else() {
+    let mut model = model(["a", "b", "c"], Glyphs::Unicode, ColorDepth::Indexed256, false);
+    for width in EDGES.0 {
+        for height in EDGES.1 {
+            for told in [(0, 0), (80, 24), (120, 40), (200, 60)] {
+                assert_laid_out_from_its_area(&mut model, told, (width, height), "panels");
+            }
+        }
+    }
+    let (mut runner, any) = (TestRunner::deterministic(), (0..=1000_u16, 0..=300_u16));
+    for keys in SCREENS.iter().chain(&["4w", "3w", "2w", "5w", "R", "RR", "av", "aq", "J"]) {
+        let mut model = self::model(HOSTILE, Glyphs::Unicode, ColorDepth::Indexed256, false);
+        type_in(&mut model, keys);
+        for round in 0..40 {
+            let mut draw = || any.new_tree(&mut runner).unwrap().current();
+            let (told, area) = (draw(), draw());
+            // Small sizes are where little things have no room.
+            let area = if round % 2 == 0 { (area.0 % 130, area.1 % 45) } else { area };
+            assert_laid_out_from_its_area(&mut model, told, area, keys);
+        }
+    }
+}
 
 #[test]
 fn no_name_of_a_file_reaches_the_terminal_as_it_is() {

@@ -9,6 +9,9 @@ mod bytes;
 mod command_line;
 #[path = "pty/files.rs"]
 mod files;
+#[cfg(target_os = "linux")]
+#[path = "pty/full_disk.rs"]
+mod full_disk;
 #[path = "pty/growing.rs"]
 mod growing;
 #[path = "pty/journal.rs"]
@@ -18,6 +21,14 @@ mod mouse;
 #[path = "pty/pictures.rs"]
 mod pictures;
 mod program;
+#[path = "pty/resize.rs"]
+mod resize;
+#[cfg(target_os = "linux")]
+#[path = "pty/soak.rs"]
+mod soak;
+#[cfg(target_os = "linux")]
+#[path = "pty/stuck.rs"]
+mod stuck;
 mod terminal;
 
 use program::Folder;

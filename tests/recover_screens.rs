@@ -33,12 +33,14 @@ fn question(found: Vec<Found>) -> String {
 fn found() -> Found {
     Found {
         path: "/state/a.journal".into(),
+        time: std::time::SystemTime::UNIX_EPOCH,
         when: "2026-01-02 03:04 UTC".into(),
         changes: 14,
         entries: Vec::new(),
         complete: true,
         session: None,
         session_changed: false,
+        base: Vec::new(),
         missing: None,
         added: 0,
     }

@@ -65,7 +65,7 @@ impl Spot {
 
 /// What lies under the cell in this column and row. Drawers lie over the plots.
 pub(super) fn spot(model: &Model, column: u16, row: u16) -> Spot {
-    let Some(areas) = layout::arrange(model) else { return Spot::Elsewhere };
+    let Some(areas) = layout::arrange(model, model.screen()) else { return Spot::Elsewhere };
     let inside = |area: Option<Rect>| area.filter(|a| a.contains((column, row).into()));
     let drawn_over = |area: Rect| if areas.knobs.is_some() { layout::drawer(area) } else { area };
     if let Some(area) = inside(areas.queue) {
@@ -134,8 +134,8 @@ fn second(model: &Model, area: Rect, column: u16, row: u16) -> Option<Spot> {
 /// The index of the row at this place of what lies over the panels, where it can be chosen.
 pub(super) fn choice(model: &Model, column: u16, row: u16) -> Option<usize> {
     // Only drawing knows where its rows come to lie: it is asked for, and thrown away.
-    layout::arrange(model)?;
-    let area = Rect { x: 0, y: 0, width: model.size.0, height: model.size.1 };
+    let area = model.screen();
+    layout::arrange(model, area)?;
     let choices = overlay::draw(model, area, &mut Buffer::empty(area));
     choices.into_iter().find(|choice| choice.place.contains((column, row).into())).map(|choice| choice.index)
 }

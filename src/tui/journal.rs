@@ -5,28 +5,37 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crossbeam_channel::{Receiver, Sender, unbounded};
+use crossbeam_channel::{Receiver, Sender, bounded, never, unbounded};
 
-use super::message::{Fate, Message};
+use super::message::{Fate, JournalNews, Message};
 use super::model::{Model, Overlay, Tone};
+use super::update::journal::news;
 use crate::session::journal::{Header, Scribe};
 use crate::track::Source;
 use writer::{Begin, Order, Writer};
 
 mod files;
 mod find;
+mod open;
 mod writer;
 
 pub use files::folder;
 pub use find::Found;
+pub use writer::Kept;
 
-/// How long a frame may wait for the disk: what the screen shows has been written, unless that takes longer.
+/// How long a frame may wait for the disk: what the screen shows has been written, unless that takes longer. Then the
+/// screen says so.
 const PATIENCE: Duration = Duration::from_millis(100);
+
+/// How long the end of the workbench may wait for the disk, each for the last line and for the file.
+const LAST_PATIENCE: Duration = Duration::from_millis(300);
 
 /// The journal of a running workbench.
 pub(super) struct Journal {
     desk: Option<Desk>,
     scribe: Scribe,
+    /// How many changes it has, or will have, that are not saved.
+    changes: usize,
     /// Journals that are offered, locked so that no other workbench offers them too.
     held: Vec<(PathBuf, File)>,
 }
@@ -37,25 +46,20 @@ struct Desk {
     /// One for each entry that has been written.
     written: Receiver<()>,
     awaited: usize,
-    thread: std::thread::JoinHandle<Option<PathBuf>>,
 }
 
 impl Journal {
     /// A journal that is kept in `folder`, nowhere with none. What earlier workbenches left there about the same
     /// record is offered by the model; errors go to `results`.
     pub(super) fn start(folder: Option<PathBuf>, model: &mut Model, results: Sender<Message>) -> Self {
-        let mut journal = Self { desk: None, scribe: Scribe::default(), held: Vec::new() };
+        let mut journal = Self { desk: None, scribe: Scribe::default(), changes: 0, held: Vec::new() };
         let Some(folder) = folder else { return journal };
-        if let Err(e) = files::make(&folder) {
-            let text = e.to_string().replace("\n  ", "; ");
-            model.say(Tone::Warning, format!("no journal: {text}; only what is saved is safe"));
-            return journal;
-        }
+        let made = files::make(&folder);
         let whole = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
         let session = model.file.as_deref().map(whole);
         let search = find::search(&folder, &record(&model.track.source), &model.track, &model.session, session);
-        if let Some(note) = search.notes.first() {
-            model.say(Tone::Warning, note.clone());
+        if !search.notes.is_empty() {
+            model.say_too(Tone::Warning, &search.notes.join(" · "));
         }
         let (found, held) = search.found.into_iter().unzip::<_, _, Vec<Found>, Vec<File>>();
         journal.held = found.iter().map(|f| f.path.clone()).zip(held).collect();
@@ -64,9 +68,10 @@ impl Journal {
         }
         let (orders, inbox) = unbounded();
         let (acknowledge, written) = unbounded();
-        let writer = Writer::new(folder, results, acknowledge);
-        let thread = std::thread::spawn(move || writer.run(&inbox));
-        journal.desk = Some(Desk { orders, written, awaited: 0, thread });
+        let failed = made.map_err(|e| news(model, JournalNews::Failing(e))).is_err();
+        let writer = Writer::new(folder, results, acknowledge, failed);
+        std::thread::spawn(move || writer.run(&inbox));
+        journal.desk = Some(Desk { orders, written, awaited: 0 });
         journal.begin(model, 0, None);
         journal
     }
@@ -75,6 +80,7 @@ impl Journal {
     /// they were taken from.
     fn begin(&mut self, model: &Model, carried: usize, replaces: Option<(PathBuf, File)>) {
         let Some(desk) = &self.desk else { return };
+        self.changes = carried;
         let touched = model.session.plans.iter().zip(&model.channels).filter(|(_, c)| c.touched);
         let (scribe, entries) = Scribe::beginning(touched.map(|(plan, _)| plan));
         self.scribe = scribe;
@@ -98,6 +104,7 @@ impl Journal {
             let Some(desk) = &mut self.desk else { continue };
             let Some(entry) = self.scribe.entry(&model.session.plans, &touched) else { continue };
             desk.awaited += usize::from(desk.orders.send(Order::Add(entry)).is_ok());
+            self.changes += 1;
         }
     }
 
@@ -112,7 +119,7 @@ impl Journal {
         let at = self.held.iter().position(|(held, _)| held == path);
         let held = at.map(|at| self.held.remove(at));
         match fate {
-            Fate::Taken { changes } => self.begin(model, changes, held),
+            Fate::Taken { changes } => self.begin(model, self.changes + changes, held),
             // Already gone is as good.
             Fate::Dropped => drop(std::fs::remove_file(path)),
             Fate::Left => {}
@@ -128,11 +135,43 @@ impl Journal {
         }
     }
 
-    /// Ends it, with all of it on the disk, or with none of it left; gives the file that is kept.
-    pub(super) fn end(&mut self, remove: bool) -> Option<PathBuf> {
+    /// True while something that the screen shows has not been written.
+    pub(super) fn behind(&self) -> bool {
+        self.desk.as_ref().is_some_and(|desk| desk.awaited > 0)
+    }
+
+    /// Gets a message for each change that is written after the frame that shows it: then [`Self::has_written`].
+    pub(super) fn written(&self) -> Receiver<()> {
+        self.desk.as_ref().map_or_else(never, |desk| desk.written.clone())
+    }
+
+    /// A change has been written.
+    pub(super) fn has_written(&mut self) {
+        if let Some(desk) = &mut self.desk {
+            desk.awaited = desk.awaited.saturating_sub(1);
+        }
+    }
+
+    /// The writing thread has panicked, and said so.
+    pub(super) fn give_up(&mut self, model: &mut Model) {
+        self.desk = None;
+        model.not_journalled = Some("the thread that writes the journal has ended".into());
+    }
+
+    /// Ends it, with all of it on the disk, or with none of it left; gives what is kept, none where there is no journal.
+    /// A disk that does not answer is not waited for: what it has not acknowledged is counted as missing.
+    pub(super) fn end(&mut self, remove: bool) -> Option<Kept> {
         let desk = self.desk.take()?;
-        let _ = desk.orders.send(Order::End { remove });
-        desk.thread.join().ok().flatten()
+        let (reply, kept) = bounded(1);
+        let _ = desk.orders.send(Order::End { remove, reply });
+        match kept.recv_timeout(LAST_PATIENCE) {
+            Ok(found) => {
+                // It is in the system's hands; the other side hangs up when it is on the disk.
+                let _ = kept.recv_timeout(LAST_PATIENCE);
+                Some(found)
+            }
+            Err(_) => Some(Kept { journal: None, missing: self.changes }),
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Where each panel lies: plain arithmetic on the size of the screen.
+//! Where each panel lies: plain arithmetic on the area that is drawn into.
 
 use ratatui::layout::Rect;
 
@@ -46,14 +46,14 @@ pub struct Areas {
     pub footer: Rect,
 }
 
-/// The panels for the model's screen; none when it is too small.
+/// The panels for the model within `whole`; none when it is too small. A frame passes the area it is drawn into: the
+/// terminal may have another size by then than the one of the last message about it.
 #[must_use]
-pub fn arrange(model: &Model) -> Option<Areas> {
-    let (width, height) = model.size;
+pub fn arrange(model: &Model, whole: Rect) -> Option<Areas> {
+    let Rect { width, height, .. } = whole;
     if width < LEAST.0 || height < LEAST.1 {
         return None;
     }
-    let whole = Rect { x: 0, y: 0, width, height };
     let voters = model.lower.kind == LowerKind::Consensus;
     if model.maximised {
         return Some(maximised(whole, model.focus, voters));
@@ -139,8 +139,8 @@ fn compact(whole: Rect, focus: Panel, voters: bool) -> Areas {
     let residual = lower.then(|| bottom(&mut rest, height));
     // The drawer lies over the plots while one of its panels has the keyboard.
     let drawer = Rect {
-        x: whole.width - SIDE.min(whole.width),
-        y: 1,
+        x: whole.right() - SIDE.min(whole.width),
+        y: whole.y + 1,
         width: SIDE.min(whole.width),
         height: whole.height.saturating_sub(3),
     };
@@ -243,7 +243,7 @@ pub fn drawer(area: Rect) -> Rect {
 /// Columns of cells on which the trace draws samples.
 #[must_use]
 pub fn plot_columns(model: &Model) -> u16 {
-    let areas = arrange(model);
+    let areas = arrange(model, model.screen());
     let area = areas.and_then(|a| a.trace.or(a.residual)).unwrap_or_default();
     area.width.saturating_sub(GUTTER)
 }

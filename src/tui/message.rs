@@ -76,8 +76,17 @@ pub enum Message {
     Files(News),
     /// The file of the record is not as it was at the last look.
     Record(Standing),
-    /// The journal can no longer be written.
-    Unjournalled(Error),
+    /// Something about the journal.
+    Journal(JournalNews),
+}
+
+/// What happened to the journal.
+#[derive(Debug)]
+pub enum JournalNews {
+    /// It cannot be written. The changes are kept in memory, and writing them is tried again.
+    Failing(Error),
+    /// All that was missing is written.
+    Resumed,
 }
 
 /// What was written.

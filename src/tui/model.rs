@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use ratatui::layout::Rect;
 use rayon::prelude::*;
 
 use super::action::{Action, Panel};
@@ -28,7 +29,7 @@ mod review;
 pub use channel::{ChannelState, Pinned, YMode};
 pub use dialog::{Browser, Dialog, ExportForm, ExportRow, LoaderForm, Over, Waiting};
 pub use lower::{Lower, LowerKind, Second};
-pub use overlay::{Overlay, Picker, PickerKind, Prompt, PromptKind};
+pub use overlay::{Merging, Overlay, Picker, PickerKind, Prompt, PromptKind};
 pub use review::{Group, Reviewing, Sort, Unit};
 
 /// Everything on the screen comes from here.
@@ -98,6 +99,10 @@ pub struct Model {
     pub ticket: u64,
     /// What is opened as soon as the session has been saved.
     pub then_open: Option<Request>,
+    /// Why changes are not journalled; none while they are, or where no journal is wanted.
+    pub not_journalled: Option<String>,
+    /// True while the journal has not yet written what the screen shows: the disk is slow.
+    pub behind: bool,
     /// Edits of the document that the journal does not have yet, as [`Edit::touched`] says.
     pub unjournalled: Vec<Vec<(usize, Vec<u32>)>>,
 }
@@ -173,6 +178,8 @@ impl Model {
             interrupted: false,
             ticket: 0,
             then_open: None,
+            not_journalled: None,
+            behind: false,
             unjournalled: Vec::new(),
         }
     }
@@ -186,6 +193,12 @@ impl Model {
         (self.keys, self.mouse, self.lines) = (old.keys, old.mouse, old.lines);
         self.lower = old.lower;
         self.review.keep_habits_of(old.review);
+    }
+
+    /// The screen, as large as the last message about it said.
+    #[must_use]
+    pub fn screen(&self) -> Rect {
+        Rect { x: 0, y: 0, width: self.size.0, height: self.size.1 }
     }
 
     /// The channel on the screen.
@@ -340,6 +353,12 @@ impl Model {
     #[must_use]
     pub fn key(&self, action: Action) -> String {
         words::key(&self.keys, action)
+    }
+
+    /// Says something in the footer after what is said there already.
+    pub fn say_too(&mut self, tone: Tone, text: &str) {
+        let before = self.toast.take().map(|toast| toast.text + " · ").unwrap_or_default();
+        self.say(tone, before + text);
     }
 
     /// Says something in the footer.

@@ -162,7 +162,7 @@ impl Outside {
                 Effect::Offered { path, fate } => self.journal.settle(model, &path, fate),
                 Effect::Copy(text) => screen.copy(&text)?,
                 Effect::Mouse(on) => screen.mouse(on)?,
-                Effect::Redraw => screen.forget()?,
+                Effect::Redraw => screen.forget(),
                 Effect::Suspend => screen.suspend()?,
                 Effect::Quit => return Ok(Next::Leave),
             }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crossbeam_channel::Receiver;
 
+use super::journal::Kept;
 use super::model::Model;
 use crate::error::{Error, Result};
 use crate::track::{Source, printable};
@@ -15,6 +16,8 @@ pub(super) enum Signalled {
     End(i32),
     Suspend,
     Resumed,
+    /// The window has another size.
+    Resized,
 }
 
 /// The signal that says that the terminal is gone.
@@ -22,15 +25,23 @@ pub(super) const HANG_UP: i32 = 1;
 
 #[cfg(unix)]
 pub(super) fn listen() -> Result<Receiver<Signalled>> {
-    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
-    let mut signals = signal_hook::iterator::Signals::new([SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGTSTP, SIGCONT])
-        .map_err(|source| Error::Io { action: "listen for", path: "signals".into(), source })?;
+    use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH};
+    let mut signals =
+        signal_hook::iterator::Signals::new([SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH])
+            .map_err(|source| Error::Io { action: "listen for", path: "signals".into(), source })?;
     let (sender, receiver) = crossbeam_channel::unbounded();
+    let of_input = sender.clone();
+    std::thread::spawn(move || {
+        if input_has_ended() {
+            let _ = of_input.send(Signalled::End(HANG_UP));
+        }
+    });
     std::thread::spawn(move || {
         for signal in signals.forever() {
             let meaning = match signal {
                 SIGTSTP => Signalled::Suspend,
                 SIGCONT => Signalled::Resumed,
+                SIGWINCH => Signalled::Resized,
                 other => Signalled::End(other),
             };
             if sender.send(meaning).is_err() {
@@ -39,6 +50,29 @@ pub(super) fn listen() -> Result<Receiver<Signalled>> {
         }
     });
     Ok(receiver)
+}
+
+/// Waits for the end of input: the other side of the terminal is closed. Where the program is no part of its session,
+/// no signal says so, and whoever reads input gets nothing, again and again. False when it cannot be known.
+#[cfg(unix)]
+fn input_has_ended() -> bool {
+    use rustix::event::{PollFd, PollFlags, poll};
+    use std::io::IsTerminal as _;
+    // What keys are read from.
+    let console = if std::io::stdin().is_terminal() { None } else { std::fs::File::open("/dev/tty").ok() };
+    let stdin = std::io::stdin();
+    loop {
+        // No event is asked for: an end is told anyway.
+        let mut input = match &console {
+            Some(console) => PollFd::new(console, PollFlags::empty()),
+            None => PollFd::new(&stdin, PollFlags::empty()),
+        };
+        match poll(std::slice::from_mut(&mut input), None) {
+            Err(rustix::io::Errno::INTR) => {}
+            Err(_) => return false,
+            Ok(_) => return input.revents().intersects(PollFlags::HUP | PollFlags::ERR),
+        }
+    }
 }
 
 #[cfg(not(unix))]
@@ -68,8 +102,8 @@ pub struct Ended {
 }
 
 impl Ended {
-    /// Ended by `signal`, with the work that was not saved in the journal `kept`, if there is one.
-    pub(super) fn by(signal: i32, model: &Model, kept: Option<&Path>) -> Self {
+    /// Ended by `signal`, with what the journal has `kept` of the work that was not saved, if there is a journal.
+    pub(super) fn by(signal: i32, model: &Model, kept: Option<&Kept>) -> Self {
         let name = match signal {
             HANG_UP => "the terminal is gone (SIGHUP)",
             2 => "interrupted (SIGINT)",
@@ -80,9 +114,18 @@ impl Ended {
         let shown = |path: &Path| printable(&path.display().to_string());
         let words = match kept {
             _ if !model.unsaved() => format!("{name}; everything was saved"),
-            Some(path) => {
+            Some(Kept { journal: Some(path), missing }) => {
                 let again = reopened(model).map(|p| format!(" {}", shown(&p))).unwrap_or_default();
-                format!("{name}; unsaved work is kept in {}, `wildpoint{again}` offers it back", shown(path))
+                let lost = match missing {
+                    0 => String::new(),
+                    1 => "the last change could not be written and is lost; earlier ".into(),
+                    n => format!("the last {n} changes could not be written and are lost; earlier "),
+                };
+                let path = shown(path);
+                format!("{name}; {lost}unsaved work is kept in {path}, `wildpoint{again}` offers it back")
+            }
+            Some(Kept { journal: None, .. }) => {
+                format!("{name}; what was not saved is lost, since the journal could not be written")
             }
             None => format!("{name}; what was not saved is lost, since there is no journal"),
         };

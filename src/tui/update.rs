@@ -20,7 +20,7 @@ pub(super) mod describe;
 mod dialog;
 mod files;
 mod history;
-mod journal;
+pub(super) mod journal;
 mod jump;
 mod mouse;
 mod navigate;
@@ -82,7 +82,9 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
         Message::Paste(text) => overlay::paste(model, &text),
         Message::Resize(width, height) => {
             model.size = (width, height);
-            Vec::new()
+            // Between two looks at it the window may have been smaller, and have lost what it showed, though its size is
+            // the same now.
+            vec![Effect::Redraw]
         }
         Message::Analysed { generation, plan, result } => analysed(model, generation, plan, result),
         Message::Advised { plan, advice } => {
@@ -109,9 +111,8 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
             record::stands(model, standing);
             Vec::new()
         }
-        Message::Unjournalled(e) => {
-            let text = e.to_string().replace("\n  ", "; ");
-            model.say(Tone::Error, format!("the journal ends here, :w saves: {text}"));
+        Message::Journal(news) => {
+            journal::news(model, news);
             Vec::new()
         }
     }

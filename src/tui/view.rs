@@ -10,6 +10,7 @@ use ratatui::widgets::Widget;
 use super::action::{Action, Panel};
 use super::layout::{self, LEAST};
 use super::model::{Model, Overlay, Tone};
+use super::update::journal::not_journalled;
 use super::words;
 use crate::track::without_signed_zero;
 
@@ -20,6 +21,7 @@ mod footer;
 mod help;
 mod journal;
 mod lower;
+mod merge;
 pub(super) mod overlay;
 mod palette;
 pub(super) mod parameters;
@@ -47,7 +49,7 @@ pub fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
 }
 
 fn draw_panels(model: &Model, area: Rect, buffer: &mut Buffer) {
-    let Some(areas) = layout::arrange(model) else {
+    let Some(areas) = layout::arrange(model, area) else {
         too_small(model, area, buffer);
         return;
     };
@@ -81,7 +83,7 @@ fn draw_panels(model: &Model, area: Rect, buffer: &mut Buffer) {
         parameters::draw(model, place(area, buffer), buffer);
     }
     if let Some(area) = areas.queue {
-        queue::draw(model, place(area, buffer), buffer);
+        queue::draw(model, areas.card.is_some(), place(area, buffer), buffer);
     }
     toast(model, areas.toast, buffer);
     footer::draw(model, areas.footer, buffer);
@@ -101,7 +103,7 @@ fn drawer(model: &Model, area: Rect, buffer: &mut Buffer) -> Rect {
 }
 
 fn too_small(model: &Model, area: Rect, buffer: &mut Buffer) {
-    let (width, height) = model.size;
+    let Rect { width, height, .. } = area;
     let text = format!("terminal too small ({width}x{height}), need {}x{}", LEAST.0, LEAST.1);
     for (i, words) in [text.as_str(), "q quits"].into_iter().enumerate() {
         let row = Rect { y: area.y + u16::try_from(i).unwrap_or(0), height: 1, ..area };
@@ -123,6 +125,8 @@ fn toast(model: &Model, area: Rect, buffer: &mut Buffer) {
         said(&toast.text, style)
     } else if let Some(error) = &model.state().error {
         said(error, theme.error)
+    } else if let Some(why) = &model.not_journalled {
+        said(&not_journalled(why), theme.error)
     } else if let Some(range) = model.selection() {
         said(&range_words(model, &range), theme.focus)
     } else if let Some(warning) = unchecked(model).or_else(|| no_flags(model)) {

@@ -19,12 +19,15 @@ use encode::encoded;
 pub(super) use encode::plain_blanks;
 use shown::Shown;
 
+/// What is drawn on at most: a terminal may say that it has 65,535 columns and rows, which no memory holds.
+const LARGEST: Size = Size { width: 1000, height: 500 };
+
 /// A backend that writes few bytes.
 pub(super) struct Wire<W: Write> {
     inner: CrosstermBackend<W>,
     /// Whether the cursor is hidden, which then need not be said again with every frame.
     hidden: bool,
-    /// Size of the terminal, as it last said.
+    /// Size of the terminal, as it last said, as far as it is drawn on.
     size: std::cell::Cell<Size>,
     /// What it shows.
     shown: Shown,
@@ -93,7 +96,8 @@ impl<W: Write> Backend for Wire<W> {
     }
 
     fn size(&self) -> io::Result<Size> {
-        let size = self.inner.size()?;
+        let Size { width, height } = self.inner.size()?;
+        let size = Size { width: width.min(LARGEST.width), height: height.min(LARGEST.height) };
         self.size.set(size);
         Ok(size)
     }

@@ -13,35 +13,35 @@ use super::terminal::{Terminal, title};
 const SIZE: (u16, u16) = (100, 30);
 
 /// A folder with the demonstration record, and a state folder beside it.
-struct Desk {
-    folder: Folder,
-    state: tempfile::TempDir,
+pub(super) struct Desk {
+    pub(super) folder: Folder,
+    pub(super) state: tempfile::TempDir,
 }
 
 impl Desk {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self { folder: Folder::with_demo(), state: tempfile::tempdir().unwrap() }
     }
 
-    fn start(&self, words: &str) -> Terminal {
+    pub(super) fn start(&self, words: &str) -> Terminal {
         let state = self.state.path().display().to_string();
         Terminal::start(&self.folder.path(""), words, SIZE, &[("XDG_STATE_HOME", &state)])
     }
 
     /// A workbench on the record, with its first result.
-    fn open(&self, words: &str) -> Terminal {
+    pub(super) fn open(&self, words: &str) -> Terminal {
         let terminal = self.start(words);
         terminal.settle();
         terminal
     }
 
-    fn journals(&self) -> Vec<PathBuf> {
+    pub(super) fn journals(&self) -> Vec<PathBuf> {
         let entries = std::fs::read_dir(self.state.path().join("wildpoint/journal")).unwrap();
         entries.map(|e| e.unwrap().path()).collect()
     }
 
     /// Waits until there are so many journals: they change beside the screen.
-    fn wait_for_journals(&self, wanted: usize) {
+    pub(super) fn wait_for_journals(&self, wanted: usize) {
         let deadline = Instant::now() + Duration::from_secs(20);
         while self.journals().len() != wanted {
             assert!(Instant::now() < deadline, "{wanted} journals are wanted: {:?}", self.journals());
@@ -50,7 +50,7 @@ impl Desk {
     }
 
     /// Saves what the workbench has, and gives the lines of the session that are the analyst's.
-    fn saved(&self, mut terminal: Terminal) -> Vec<String> {
+    pub(super) fn saved(&self, mut terminal: Terminal) -> Vec<String> {
         terminal.keys(":w! saved.toml\r");
         terminal.wait_for("saved saved.toml");
         terminal.keys("q");
@@ -61,7 +61,7 @@ impl Desk {
     }
 }
 
-fn overlay(terminal: &Terminal) {
+pub(super) fn overlay(terminal: &Terminal) {
     terminal.wait_for("unsaved work was found");
 }
 
@@ -202,7 +202,7 @@ fn without_a_journal_the_workbench_works_and_says_so() {
     // A file stands where the folder should be made.
     std::fs::write(desk.state.path().join("wildpoint"), "").unwrap();
     let mut terminal = desk.start("demo.csv");
-    terminal.wait_for("no journal: ");
+    terminal.wait_for("changes are not journalled:");
     terminal.settle();
     terminal.keys("a");
     terminal.wait_for("accepted row 61");

@@ -36,9 +36,9 @@ pub(crate) struct Terminal {
     _state: TempDir,
 }
 
-/// Rows and columns as the parser wants them.
+/// Rows and columns as the parser wants them, which has one of each at least.
 fn screen_size((cols, rows): (u16, u16)) -> (NonZeroU16, NonZeroU16) {
-    (rows.try_into().unwrap(), cols.try_into().unwrap())
+    [rows, cols].map(|n| NonZeroU16::new(n).unwrap_or(NonZeroU16::MIN)).into()
 }
 
 fn pty_size((cols, rows): (u16, u16)) -> PtySize {
@@ -170,9 +170,14 @@ impl Terminal {
         self.master.resize(pty_size(size)).unwrap();
     }
 
+    /// The number of the process.
+    pub(crate) fn pid(&self) -> u32 {
+        self.child.process_id().unwrap()
+    }
+
     /// Sends a signal by its name.
     pub(crate) fn signal(&self, name: &str) {
-        let pid = self.child.process_id().unwrap().to_string();
+        let pid = self.pid().to_string();
         let sent = std::process::Command::new("kill").args(["-s", name, &pid]).status().unwrap();
         assert!(sent.success());
     }
@@ -180,6 +185,22 @@ impl Terminal {
     /// Waits until a whole frame has come after so many bytes.
     pub(crate) fn wait_more(&self, than: usize) {
         self.wait("a frame", |seen| (seen.raw.len() > than && seen.raw.ends_with(FRAME_END)).then_some(()));
+    }
+
+    /// Waits until a whole frame has come after so many bytes, or the program has ended.
+    pub(crate) fn wait_more_or_end(&self, than: usize) {
+        let deadline = Instant::now() + PATIENCE;
+        let mut seen = self.seen.0.lock().unwrap();
+        while !(seen.closed || seen.raw.len() > than && seen.raw.ends_with(FRAME_END)) {
+            let left = deadline.saturating_duration_since(Instant::now());
+            assert!(!left.is_zero(), "no frame has come; the screen is\n{}", seen.parser.screen().contents());
+            seen = self.seen.1.wait_timeout(seen, left).unwrap().0;
+        }
+    }
+
+    /// Whether the program has closed its terminal.
+    pub(crate) fn ended(&self) -> bool {
+        self.seen.0.lock().unwrap().closed
     }
 
     /// Ends the program as a power cut would, at once.

@@ -60,7 +60,7 @@ pub use options::LoadOptions;
 pub use outputs::faults;
 pub use outputs::{Outputs, take_unfinished_away};
 pub use preview::Preview;
-pub use printable::{is_hidden, printable, printable_json, printable_lines};
+pub use printable::{is_hidden, is_shown, printable, printable_json, printable_lines};
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use samples::Samples;

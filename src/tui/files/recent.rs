@@ -45,9 +45,24 @@ pub(super) fn remember(list: &Path, path: &Path) -> Result<()> {
     if let Some(folder) = list.parent() {
         std::fs::create_dir_all(folder).map_err(Error::io("make", folder))?;
     }
+    keep_others_out(list).map_err(Error::io("close to others", list))?;
     let mut files = Outputs::new(true, &[]);
     files.stage(list, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", list)))?;
     files.commit()
+}
+
+/// Sees to it that the list is there and that nobody else may read it: which records somebody works on is not for
+/// everybody. Outputs have the mode of the file whose place they take.
+#[cfg(unix)]
+fn keep_others_out(list: &Path) -> std::io::Result<()> {
+    use std::os::unix::fs::{OpenOptionsExt as _, PermissionsExt as _};
+    let file = std::fs::OpenOptions::new().write(true).create(true).truncate(false).mode(0o600).open(list)?;
+    file.set_permissions(std::fs::Permissions::from_mode(0o600))
+}
+
+#[cfg(not(unix))]
+fn keep_others_out(_: &Path) -> std::io::Result<()> {
+    Ok(())
 }
 
 fn encoded(path: &Path) -> String {

@@ -8,6 +8,9 @@ use crate::error::{Error, Result};
 /// How the name of every journal ends.
 pub(super) const ENDING: &str = "journal";
 
+/// How the name of a journal ends until it is whole.
+pub(super) const DRAFT: &str = "draft";
+
 /// The folder of journals in the user's state folder (XDG Base Directory Specification: `$XDG_STATE_HOME`, or
 /// `~/.local/state`); none where there is no home either.
 #[must_use]
@@ -23,25 +26,47 @@ pub(super) fn make(folder: &Path) -> Result<()> {
     builder.recursive(true);
     #[cfg(unix)]
     std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-    builder.create(folder).map_err(Error::io("make", folder))
+    builder.create(folder).map_err(Error::io("make", folder))?;
+    #[cfg(unix)]
+    keep_others_out(folder).map_err(Error::io("close to others", folder))?;
+    Ok(())
+}
+
+/// Takes from everybody else what a folder that was there before allows them.
+#[cfg(unix)]
+fn keep_others_out(folder: &Path) -> std::io::Result<()> {
+    use std::os::unix::fs::PermissionsExt as _;
+    let mut permissions = std::fs::metadata(folder)?.permissions();
+    if permissions.mode() & 0o077 == 0 {
+        return Ok(());
+    }
+    permissions.set_mode(0o700);
+    std::fs::set_permissions(folder, permissions)
+}
+
+/// How the names of all journals begin that are about the record with this SHA-256.
+pub(super) fn beginning(record: &str) -> String {
+    format!("{}-", record.chars().take(16).collect::<String>())
 }
 
 /// The name of a journal of this process about the record with this SHA-256, on the session with that one.
 pub(super) fn name(folder: &Path, record: &str, session: &str) -> PathBuf {
     let short = |sum: &str, n: usize| sum.chars().take(n).collect::<String>();
     let session = if session.is_empty() { "record".to_owned() } else { short(session, 8) };
-    let stem = format!("{}-{session}-{}", short(record, 16), std::process::id());
+    let stem = format!("{}{session}-{}", beginning(record), std::process::id());
     // An earlier process with the same number may have left one.
     let numbered =
         |n: u32| folder.join(if n == 0 { format!("{stem}.{ENDING}") } else { format!("{stem}.{n}.{ENDING}") });
     (0..u32::MAX).map(numbered).find(|path| !path.exists()).unwrap_or_else(|| numbered(u32::MAX))
 }
 
-/// A new file that this process holds. It has another name until it is whole.
+/// A new file that this process holds. It has another name until it is whole. What stands under that name, a draft
+/// that was left or a link to somewhere else, is removed and not written to.
 pub(super) fn create(path: &Path) -> std::io::Result<(File, PathBuf)> {
-    let draft = path.with_extension("draft");
+    let draft = path.with_extension(DRAFT);
+    let _ = std::fs::remove_file(&draft);
     let mut options = OpenOptions::new();
-    options.write(true).create(true).truncate(true);
+    options.write(true).create_new(true);
     #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
     let file = options.open(&draft)?;

@@ -4,6 +4,7 @@ use tui_input::Input;
 
 use super::super::journal::Found;
 use super::Dialog;
+use crate::session::journal::Conflict;
 
 /// What lies over the panels.
 #[derive(Debug, Default)]
@@ -27,6 +28,21 @@ pub enum Overlay {
     Journal(usize),
     /// Take back in what an earlier workbench left? The newest first.
     Recover(Vec<Found>),
+    /// Which side holds, where session and journal contradict each other?
+    Merge(Box<Merging>),
+}
+
+/// Work that is being taken in although some of it contradicts the session.
+#[derive(Debug)]
+pub struct Merging {
+    /// What is offered; the first is taken in.
+    pub offered: Vec<Found>,
+    /// In what it contradicts the session.
+    pub conflicts: Vec<Conflict>,
+    /// The conflicts in which the journal holds, by their indices.
+    pub chosen: Vec<usize>,
+    /// The conflict that is asked about.
+    pub at: usize,
 }
 
 /// A list to choose from.

@@ -18,7 +18,7 @@ pub(super) fn show(model: &mut Model, output: Option<PathBuf>) -> Vec<Effect> {
     let output = output.unwrap_or_else(|| default_export(&model.track.source));
     let (line, about) = match clean_command(&model.document(), &output) {
         Some(line) => (line, ALONE),
-        None => match saved(model).and_then(|session| replay_command(session, &output)) {
+        None => match saved(model).map(|session| replay_command(session, &output)) {
             Some(line) => (line, WITH_SESSION),
             None => {
                 let why = match &model.track.source {

@@ -1,10 +1,32 @@
-//! The journal panel: what was done to the document, and the way back to any moment of it.
+//! The journal: the panel of what was done to the document, with the way back to any moment of it, and what the user
+//! has to know of the file.
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent};
 
-use super::super::message::Effect;
-use super::super::model::{Model, Overlay};
+use super::super::message::{Effect, JournalNews};
+use super::super::model::{Model, Overlay, Tone};
 use super::history;
+
+/// Takes news of the journal's file in. That changes are not journalled stays on the screen until they are.
+pub(in super::super) fn news(model: &mut Model, news: JournalNews) {
+    match news {
+        JournalNews::Failing(e) => {
+            // The way out is another one than the error names: it is tried again by itself.
+            let why = e.to_string().lines().next().unwrap_or_default().to_owned();
+            model.say(Tone::Error, not_journalled(&why));
+            model.not_journalled = Some(why);
+        }
+        JournalNews::Resumed => {
+            model.not_journalled = None;
+            model.say(Tone::Done, "changes are journalled again, with all that were missing");
+        }
+    }
+}
+
+/// What is said while changes are not journalled.
+pub(in super::super) fn not_journalled(why: &str) -> String {
+    format!("changes are not journalled: {why}; tried again every second, :w saves")
+}
 
 /// Opens the panel at the present moment.
 pub(super) fn open(model: &mut Model) -> Vec<Effect> {

@@ -88,6 +88,7 @@ pub fn narrowed(model: &Model, picker: &Picker) -> Vec<Entry> {
 pub(super) fn key(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
     let overlay = match std::mem::take(&mut model.overlay) {
         Overlay::Recover(found) => return recover::key(model, found, key),
+        Overlay::Merge(merging) => return recover::choose(model, *merging, key),
         Overlay::Files(files) => return dialog::key(model, *files, key),
         other => other,
     };
@@ -96,7 +97,7 @@ pub(super) fn key(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
         return Vec::new();
     }
     match overlay {
-        Overlay::None | Overlay::Recover(_) | Overlay::Files(_) => Vec::new(),
+        Overlay::None | Overlay::Recover(_) | Overlay::Merge(_) | Overlay::Files(_) => Vec::new(),
         Overlay::Help(filter, from) => {
             model.overlay = help(filter, from, key);
             Vec::new()
@@ -120,9 +121,12 @@ pub(super) fn paste(model: &mut Model, text: &str) -> Vec<Effect> {
             dialog::paste(files, text);
             return Vec::new();
         }
-        Overlay::None | Overlay::ConfirmQuit | Overlay::Recover(_) | Overlay::Journal(_) | Overlay::CommandLine(..) => {
-            return Vec::new();
-        }
+        Overlay::None
+        | Overlay::ConfirmQuit
+        | Overlay::Recover(_)
+        | Overlay::Merge(_)
+        | Overlay::Journal(_)
+        | Overlay::CommandLine(..) => return Vec::new(),
     };
     for c in text.chars().filter(|c| !c.is_control()) {
         input.handle(InputRequest::InsertChar(c));

@@ -163,7 +163,7 @@ pub(super) fn stay(model: &mut Model, before: &[u32]) {
 }
 
 fn panel_rows(model: &Model) -> Option<usize> {
-    layout::arrange(model).and_then(|areas| areas.queue).map(layout::queue_rows)
+    layout::arrange(model, model.screen()).and_then(|areas| areas.queue).map(layout::queue_rows)
 }
 
 /// The flags from `rows` before some positions to `rows` after them, with those that are gone, by time.

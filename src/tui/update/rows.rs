@@ -26,7 +26,8 @@ fn rows(model: &Model) -> Option<(Option<usize>, usize)> {
         | Overlay::Help(..)
         | Overlay::CommandLine(..)
         | Overlay::ConfirmQuit
-        | Overlay::Recover(_) => None,
+        | Overlay::Recover(_)
+        | Overlay::Merge(_) => None,
     }
 }
 

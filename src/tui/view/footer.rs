@@ -125,6 +125,7 @@ fn overlay_items(overlay: &Overlay) -> Option<Vec<(String, &'static str)>> {
             &[("d", "drop it"), ("Esc", "decide later")]
         }
         Overlay::Recover(_) => &[("r", "take it back in"), ("d", "drop it"), ("Esc", "decide later")],
+        Overlay::Merge(_) => &[("h", "keep what is here"), ("t", "take what is there"), ("Esc", "take nothing in")],
         Overlay::Files(dialog) => of_dialog(dialog),
         Overlay::ConfirmQuit => &[("w", "save and quit"), ("d", "drop and quit"), ("Esc", "stay")],
     };

@@ -35,6 +35,7 @@ pub(in super::super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) -> 
         Overlay::ConfirmQuit => confirm(model, area, buffer),
         Overlay::CommandLine(line, about) => command_line(model, line, about, area, buffer),
         Overlay::Recover(found) => super::recover::draw(model, found, area, buffer),
+        Overlay::Merge(merging) => super::merge::draw(model, merging, area, buffer),
     }
     Vec::new()
 }

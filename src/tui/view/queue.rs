@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
-use super::super::layout::{self, queue_rows};
+use super::super::layout::queue_rows;
 use super::super::model::{Group, Model, Sort, Unit};
 use super::super::plot::{FlagState, Glyphs};
 use super::super::update::{mark_at, queue};
@@ -17,7 +17,9 @@ use crate::track::{Series, without_signed_zero};
 /// Columns of the rows of a run and of its length.
 const ROWS: usize = 17;
 
-pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
+/// Draws the queue. `beside_card`: whether the card is on the screen, which says how many flags there are; the queue
+/// does not repeat it then, since it would go over the wire twice at each step.
+pub(super) fn draw(model: &Model, beside_card: bool, area: Rect, buffer: &mut Buffer) {
     clear(area, buffer);
     let theme = &model.theme;
     let all = &model.state().queue;
@@ -28,9 +30,7 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         Sort::Run => "by run",
     };
     let what = if model.review.unit == Unit::Run { "runs" } else { "in all" };
-    // Beside the card, which says how many there are, it would go over the wire twice at each step.
-    let beside = layout::arrange(model).is_some_and(|areas| areas.card.is_some());
-    let count = if beside { String::new() } else { format!("{} {what} ", thousands(all.len())) };
+    let count = if beside_card { String::new() } else { format!("{} {what} ", thousands(all.len())) };
     let words = [Span::styled(format!("{by}  {count}"), theme.dim)];
     let mut body = heading(model, Panel::Queue, &words, area, buffer);
     if all.is_empty() {

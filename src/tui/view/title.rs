@@ -13,7 +13,7 @@ use crate::track::{Standing, printable};
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     clear(area, buffer);
-    let right = right_side(model);
+    let right = right_side(model, area.width);
     let right_width = u16::try_from(right.width()).unwrap_or(u16::MAX).min(area.width);
     let place = Rect { x: area.right() - right_width, width: right_width, ..area };
     right.render(place, buffer);
@@ -52,15 +52,18 @@ fn left_side(model: &Model, width: usize) -> Line<'static> {
     Line::from(spans)
 }
 
-fn right_side(model: &Model) -> Line<'static> {
+fn right_side(model: &Model, width: u16) -> Line<'static> {
     let (theme, glyphs, state) = (&model.theme, model.glyphs, model.state());
     let mut spans = Vec::new();
+    if model.not_journalled.is_some() || model.behind {
+        spans.push(Span::styled("not journalled ", theme.error));
+    }
     match &state.drawn {
         None if state.error.is_some() => spans.push(Span::styled("no result ", theme.error)),
         None => spans.push(Span::styled("computing … ", theme.warning)),
         Some(drawn) => {
             let counts = drawn.outcome.counts;
-            let truth = model.track.truth_for(&model.plan().channel).filter(|_| model.size.0 >= 80);
+            let truth = model.track.truth_for(&model.plan().channel).filter(|_| width >= 80);
             if let Some(score) = truth.and_then(|truth| Picture::of(model, model.shown).score(truth)) {
                 let text = format!("missed {} false {}  ", score.missed, score.false_alarms);
                 spans.push(Span::styled(text, theme.dim));

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::{DEFAULT_METHOD, Plan, Preset, Session, Setup};
 use crate::param::Settings;
 use crate::repair;
-use crate::track::{LoadOptions, Source, Worded};
+use crate::track::{LoadOptions, Source, Worded, is_shown};
 
 /// The command for a POSIX shell that writes to `output` what `session` gives: `wildpoint clean` with what differs
 /// from the preset in force. None where no `clean` says the same, and only the saved session does: with decisions,
@@ -20,20 +20,20 @@ pub fn clean_command(session: &Session, output: &Path) -> Option<String> {
     if !alike {
         return None;
     }
-    let mut line = format!("wildpoint clean {}", path_quoted(record)?);
+    let mut line = format!("wildpoint clean {}", path_quoted(record));
     loading(&mut line, &session.data.options)?;
     for Plan { channel, .. } in &session.plans {
         option(&mut line, "channel", channel);
     }
     judging(&mut line, &first.setup);
-    let _ = write!(line, " -o {}", path_quoted(output)?);
+    let _ = write!(line, " -o {}", path_quoted(output));
     Some(line)
 }
 
-/// The command that writes to `output` what the session file `session` gives; none for names that are no UTF-8.
+/// The command that writes to `output` what the session file `session` gives.
 #[must_use]
-pub fn replay_command(session: &Path, output: &Path) -> Option<String> {
-    Some(format!("wildpoint replay {} -o {}", path_quoted(session)?, path_quoted(output)?))
+pub fn replay_command(session: &Path, output: &Path) -> String {
+    format!("wildpoint replay {} -o {}", path_quoted(session), path_quoted(output))
 }
 
 /// The options of loading; none when there is one that the command line cannot say.
@@ -109,20 +109,41 @@ fn option(line: &mut String, name: &str, value: &str) {
     let _ = write!(line, " --{name}{sign}{}", quoted(value));
 }
 
-/// A path as a word of the shell; none when it is no UTF-8, which no text can say.
-fn path_quoted(path: &Path) -> Option<String> {
-    let text = path.to_str()?;
-    Some(if text.starts_with('-') { quoted(&format!("./{text}")) } else { quoted(text) })
+/// A path as a word of the shell, bytes that are no UTF-8 included.
+fn path_quoted(path: &Path) -> String {
+    let path = if path.as_os_str().as_encoded_bytes().starts_with(b"-") { &Path::new(".").join(path) } else { path };
+    if let Some(text) = path.to_str() {
+        return quoted(text);
+    }
+    let octal = |bytes: &[u8]| bytes.iter().map(|byte| format!("\\{byte:03o}")).collect::<String>();
+    let part = |chunk: std::str::Utf8Chunk<'_>| {
+        chunk.valid().chars().map(escaped).collect::<String>() + &octal(chunk.invalid())
+    };
+    format!("$'{}'", path.as_os_str().as_encoded_bytes().utf8_chunks().map(part).collect::<String>())
 }
 
-/// A text as one word of a POSIX shell.
+/// A text as one word of a POSIX shell, in characters that a terminal shows as they are: with any other in it, in the
+/// form `$'...'` (POSIX.1-2024; bash, zsh, ksh, busybox). A shell that does not know that form takes the word for
+/// another name, but runs nothing in it.
 #[must_use]
 pub fn quoted(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_./:=,+@%-".contains(c);
     if !text.is_empty() && text.chars().all(plain) {
         return text.to_owned();
     }
-    format!("'{}'", text.replace('\'', "'\\''"))
+    if text.chars().all(is_shown) {
+        return format!("'{}'", text.replace('\'', "'\\''"));
+    }
+    format!("$'{}'", text.chars().map(escaped).collect::<String>())
+}
+
+/// A character between `$'` and `'`: what ends the word, begins an escape or is not shown is written as its bytes in
+/// octal digits. Three of them, since no digit after those can belong to them.
+fn escaped(c: char) -> String {
+    if is_shown(c) && !"'\\".contains(c) {
+        return c.to_string();
+    }
+    c.encode_utf8(&mut [0; 4]).bytes().map(|byte| format!("\\{byte:03o}")).collect()
 }
 
 #[cfg(test)]
@@ -142,6 +163,40 @@ mod tests {
         ] {
             assert_eq!(quoted(text), word);
         }
-        assert_eq!(path_quoted(Path::new("-rf")).as_deref(), Some("./-rf"));
+        assert_eq!(path_quoted(Path::new("-rf")), "./-rf");
+    }
+
+    #[test]
+    fn what_a_terminal_would_obey_or_hide_is_written_in_digits() {
+        for (text, word) in [
+            ("a\x15touch b\r\n", "$'a\\025touch b\\015\\012'"),
+            ("\x1b]52;it's\\", "$'\\033]52;it\\047s\\134'"),
+            ("\u{202e}csv", "$'\\342\\200\\256csv'"),
+            ("\u{9b}1", "$'\\302\\2331'"),
+            ("e\u{301}", "'e\u{301}'"),
+        ] {
+            assert_eq!(quoted(text), word);
+        }
+    }
+
+    proptest::proptest! {
+        /// Whatever the names are, nothing in the command is obeyed by a terminal or ends the line.
+        #[test]
+        fn no_command_has_a_control_character(names in proptest::array::uniform6(".{0,12}"), bytes: [u8; 4]) {
+            let hostile = |name: &String| format!("{name}{}", String::from_utf8_lossy(&bytes));
+            let [record, output, channel, time, missing, rate] = names.each_ref().map(hostile);
+            let mut setup = Setup::standard();
+            setup.rate = Some(rate);
+            let options = LoadOptions { time: Some(time.clone()), track: Some(time.clone()), truth: Some(time),
+                missing: vec![missing], ..LoadOptions::default() };
+            let data = super::super::Data { source: Source::File(record.clone().into()), sha256: String::new(), bytes: None, record_was: None, rows: 1,
+                row_check: None, options };
+            let plan = Plan { channel, setup, decisions: crate::review::Decisions::default() };
+            let session = Session { data, plans: vec![plan], result: None };
+            let output = Path::new(&output);
+            for line in [clean_command(&session, output).unwrap(), replay_command(Path::new(&record), output)] {
+                proptest::prop_assert!(line.chars().all(is_shown), "{line:?}");
+            }
+        }
     }
 }

@@ -5,13 +5,17 @@
 //! The first entry about a channel holds all of its plan, so that a journal can be taken back in whatever method the
 //! record is opened with; the later ones hold what they changed.
 
+use std::path::PathBuf;
+
 use super::{Edit, Plan, Session, Setup};
 use crate::review::{Change, Decision, Decisions};
 
 mod line;
+mod merge;
 mod written;
 
-pub use line::{Encoder, Journal, decode};
+pub use line::{Encoder, Foreign, Journal, decode, foreign};
+pub use merge::{Conflict, Disputed, Merge};
 
 /// What the first line of a journal says.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,7 +40,7 @@ pub struct Header {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Base {
     /// Its absolute path.
-    pub path: String,
+    pub path: PathBuf,
     /// SHA-256 of its bytes then, lower-case hexadecimal; empty when it could not be read.
     pub sha256: String,
 }

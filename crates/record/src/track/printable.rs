@@ -60,6 +60,12 @@ pub fn printable_json(json: &str) -> String {
     safe
 }
 
+/// Whether a terminal shows a character as it is, and neither obeys it, hides it nor reorders others for it.
+#[must_use]
+pub fn is_shown(c: char) -> bool {
+    !c.is_control() && !is_hidden(c)
+}
+
 /// A character as it is, or an escape where a terminal would obey, hide or reorder.
 fn push_visible(safe: &mut String, c: char) {
     match c {

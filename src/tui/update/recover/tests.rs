@@ -15,7 +15,9 @@ fn model(offered: Vec<Found>) -> Model {
     let track = load(&Source::demo(), &LoadOptions::default()).unwrap();
     let session = Session::new(&track, LoadOptions::default(), &Setup::standard());
     let mut model = Model::new(Arc::new(track), session, None, Theme::mono(), Glyphs::Ascii);
-    model.overlay = Overlay::Recover(offered);
+    // The work began from the record alone.
+    let base = model.session.plans.clone();
+    model.overlay = Overlay::Recover(offered.into_iter().map(|f| Found { base: base.clone(), ..f }).collect());
     model
 }
 
@@ -24,6 +26,7 @@ fn found(name: &str) -> Found {
     let decisions = |row, d| Entry::Decide { channel: "alt_m".into(), decisions: vec![(row, d)] };
     Found {
         path: name.into(),
+        time: std::time::SystemTime::UNIX_EPOCH,
         when: "2026-01-02 03:04 UTC".into(),
         changes: 3,
         entries: vec![decisions(60, Some(decision.clone())), decisions(70, Some(decision)), decisions(60, None)],
@@ -31,6 +34,7 @@ fn found(name: &str) -> Found {
         session: Some("/nowhere/a.toml".into()),
         session_changed: false,
         added: 0,
+        base: Vec::new(),
         missing: None,
     }
 }
@@ -49,7 +53,9 @@ fn what_is_taken_back_in_is_unsaved_and_can_be_undone_change_by_change() {
     let plan = model.session.plans.iter().position(|p| p.channel == "alt_m").unwrap();
     let effects = press(&mut model, KeyCode::Char('r'));
     let taken = offered("a", Fate::Taken { changes: 3 });
-    assert_eq!(effects, [offered("b", Fate::Left), taken, Effect::Analyse(plan)]);
+    assert_eq!(effects, [taken, Effect::Analyse(plan)]);
+    assert!(matches!(&model.overlay, Overlay::Recover(rest) if rest.len() == 1), "the next is offered");
+    assert_eq!(press(&mut model, KeyCode::Esc), [offered("b", Fate::Left)]);
     let rows = |model: &Model| model.session.plans[plan].decisions.iter().map(|(row, _)| row).collect::<Vec<_>>();
     assert_eq!((rows(&model), model.unsaved(), model.shown), (vec![70], true, plan));
     assert_eq!(model.file, Some(PathBuf::from("/nowhere/a.toml")));

@@ -3,7 +3,7 @@
 
 use sha2::{Digest, Sha256};
 
-use super::written::{entry_of, entry_text, header_of, header_text};
+use super::written::{entry_of, entry_text, foreign_of, header_of, header_text};
 use super::{Entry, Header};
 
 /// Hexadecimal digits of a sum: 64 bits against accidents, not against forgers.
@@ -73,6 +73,27 @@ pub fn decode(bytes: &[u8]) -> Option<Journal> {
         }
     }
     Some(Journal { header, entries, complete: true })
+}
+
+/// A journal that another version of the program wrote.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Foreign {
+    /// The program, in its own words.
+    pub program: String,
+    /// The record, as in [`Header`]; empty when it is not understood.
+    pub record: String,
+    /// SHA-256 of the record; empty when it is not understood.
+    pub sha256: String,
+}
+
+/// What can be told of a journal that [`decode`] does not read because another version wrote it; none for anything
+/// else.
+#[must_use]
+pub fn foreign(bytes: &[u8]) -> Option<Foreign> {
+    let line = bytes.split_inclusive(|b| *b == b'\n').next()?;
+    // How another version sums its lines is its own business.
+    let text = std::str::from_utf8(line.strip_suffix(b"\n")?).ok()?;
+    foreign_of(text.get(text.find('{')?..)?)
 }
 
 /// The JSON of a line that is whole.

@@ -1,10 +1,11 @@
 //! Headers and entries as JSON, values in the words of the session file.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Base, Entry, Header};
+use super::{Base, Entry, Foreign, Header};
 use crate::method::Verdict;
 use crate::param::Settings;
 use crate::review::{Decision, Decisions, Ruling};
@@ -34,6 +35,33 @@ struct WrittenHeader {
 struct WrittenBase {
     path: String,
     sha256: String,
+    /// The bytes of a path that is no UTF-8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    bytes: Option<Vec<u8>>,
+}
+
+impl WrittenBase {
+    fn of(base: &Base) -> Self {
+        let bytes = base.path.to_str().is_none().then(|| base.path.as_os_str().as_encoded_bytes().to_vec());
+        Self { path: base.path.to_string_lossy().into_owned(), sha256: base.sha256.clone(), bytes }
+    }
+
+    fn read(self) -> Base {
+        let path = self.bytes.and_then(path_of).unwrap_or_else(|| self.path.into());
+        Base { path, sha256: self.sha256 }
+    }
+}
+
+/// The path that these bytes are, where paths are bytes.
+#[cfg(unix)]
+fn path_of(bytes: Vec<u8>) -> Option<PathBuf> {
+    use std::os::unix::ffi::OsStringExt as _;
+    Some(std::ffi::OsString::from_vec(bytes).into())
+}
+
+#[cfg(not(unix))]
+fn path_of(_: Vec<u8>) -> Option<PathBuf> {
+    None
 }
 
 #[derive(Serialize, Deserialize)]
@@ -98,7 +126,7 @@ pub(super) fn header_text(header: &Header) -> String {
         sha256: header.sha256.clone(),
         bytes: header.bytes,
         rows: header.rows,
-        session: header.base.clone().map(|b| WrittenBase { path: b.path, sha256: b.sha256 }),
+        session: header.base.as_ref().map(WrittenBase::of),
         begun: header.begun,
         carried: header.carried,
     })
@@ -107,9 +135,27 @@ pub(super) fn header_text(header: &Header) -> String {
 /// The header of a JSON text; none for one that this version does not read.
 pub(super) fn header_of(text: &str) -> Option<Header> {
     let w: WrittenHeader = serde_json::from_str(text).ok()?;
-    let base = w.session.map(|b| Base { path: b.path, sha256: b.sha256 });
+    let base = w.session.map(WrittenBase::read);
     let WrittenHeader { record, sha256, bytes, rows, begun, carried, .. } = w;
     (w.format == FORMAT).then_some(Header { record, sha256, bytes, rows, base, begun, carried })
+}
+
+/// What every version says in its header.
+#[derive(Deserialize)]
+struct AnyHeader {
+    format: u64,
+    #[serde(default)]
+    program: String,
+    #[serde(default)]
+    record: String,
+    #[serde(default)]
+    sha256: String,
+}
+
+/// What a header of another version says; none for one of this version, and for what is no header.
+pub(super) fn foreign_of(text: &str) -> Option<Foreign> {
+    let AnyHeader { format, program, record, sha256 } = serde_json::from_str(text).ok()?;
+    (format != u64::from(FORMAT)).then_some(Foreign { program, record, sha256 })
 }
 
 /// The JSON of an entry, on one line.
