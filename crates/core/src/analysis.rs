@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::calibration::{Calibration, calibrate};
 use crate::error::{Error, Result};
 use crate::math::pieces::{self, PIECE};
 use crate::method::noise::{self, Scales};
@@ -30,6 +31,8 @@ pub struct Detection {
     pub scales: Vec<Scales>,
     /// One entry per present sample.
     pub judged: Gated,
+    /// What the record was calibrated to, where the floor comes from that.
+    pub calibration: Option<Arc<Calibration>>,
 }
 
 /// The samples of a channel, and those of the channel that measures its rate where the method needs one.
@@ -64,6 +67,19 @@ impl Detection {
     /// # Errors
     /// [`Error::Stopped`]; [`Error::Usage`] when the method needs a rate channel and has none.
     pub fn of(input: Input<'_>, setup: &Setup, stop: &Stop) -> Result<Self> {
+        Self::calibrated(input, setup, None, stop)
+    }
+
+    /// [`Detection::of`] for a channel that may have been calibrated before: that is not done again.
+    ///
+    /// # Errors
+    /// As [`Detection::of`].
+    pub fn calibrated(
+        input: Input<'_>,
+        setup: &Setup,
+        calibration: Option<Arc<Calibration>>,
+        stop: &Stop,
+    ) -> Result<Self> {
         let Input { series, rate } = input;
         let about = setup.method.about();
         if about.needs_rate && rate.is_none() {
@@ -74,9 +90,13 @@ impl Detection {
         }
         let rate = rate.map(|r| Rate { t: &r.t, y: &r.y });
         let segments = segments(series, &setup.settings, stop)?;
-        let scales = noise::scales(series, &segments, &setup.settings, stop)?;
+        let calibration = match calibration {
+            None if noise::by_record(&setup.settings) => Some(Arc::new(calibrate(series, stop)?)),
+            known => known,
+        };
+        let scales = noise::scales_by(series, &segments, &setup.settings, calibration.as_deref(), stop)?;
         let judged = judge_segments(setup.method, series, (&segments, &scales), rate, &setup.settings, stop)?;
-        Ok(Self::new(setup.clone(), segments, scales, judged))
+        Ok(Self { calibration, ..Self::new(setup.clone(), segments, scales, judged) })
     }
 
     /// The detection under `setup` when that differs from the setup of this one in a multiplier that only gates: its
@@ -97,6 +117,7 @@ impl Detection {
             segments: segments.clone(),
             scales: scales.clone(),
             judged,
+            calibration: self.calibration.clone(),
         }))
     }
 
@@ -118,7 +139,7 @@ impl Detection {
     #[must_use]
     pub fn new(setup: Setup, segments: Vec<Range<usize>>, scales: Vec<Scales>, judged: Judged) -> Self {
         let k = setup.method.gate(&setup.settings).map(|key| setup.settings.real(key));
-        Self { setup, segments, scales, judged: Gated::new(judged, k) }
+        Self { setup, segments, scales, judged: Gated::new(judged, k), calibration: None }
     }
 
     /// The same detection under a setup that differs in the repair alone.
@@ -202,7 +223,7 @@ impl Settled {
         let check = || stop.check();
         let (range, setup) = (&detection.segments[index], &detection.setup);
         let local = pieces::collect(outliers.len(), &check, |i| outliers[i] - range.start)?;
-        let segment = Segment::of(series, range, detection.scales[index], None);
+        let segment = Segment::of(series, range, &detection.scales[index], None);
         let own = match repair::chosen(&setup.repair).way {
             // Nobody asks for it otherwise.
             repair::Way::Own => {

@@ -5,6 +5,7 @@
 pub mod analysis;
 pub mod ballot;
 pub mod error;
+pub mod calibration;
 mod interval;
 pub mod math;
 pub mod method;

@@ -23,6 +23,7 @@ pub mod grubbs;
 pub mod hampel;
 mod judged;
 pub mod kalman;
+mod local;
 pub mod matched;
 pub mod mean_window;
 pub mod median_window;
@@ -113,7 +114,8 @@ pub fn judge_segments(
 ) -> Result<Judged, Stopped> {
     let judge = |(range, scales): (&Range<usize>, &noise::Scales)| {
         stop.check()?;
-        method.judge(&Segment::of(series, range, *scales, rate), settings, stop)?.bounded(stop)
+        let segment = Segment::of(series, range, scales, rate);
+        local::bounded_below(method.judge(&segment, settings, stop)?, &segment, method, settings, stop)?.bounded(stop)
     };
     // Segments are judged in any order and put together in theirs: the number of threads changes nothing.
     let parts: Vec<Judged> = ranges.par_iter().zip(scales).map(judge).collect::<Result<_, _>>()?;

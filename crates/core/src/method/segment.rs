@@ -19,8 +19,11 @@ pub struct Segment<'a> {
     /// Noise scale by the setting `sigma`, at least [`Segment::floor`]; 0 when it counts as zero (section 1 of the
     /// methods page), and for methods without that setting.
     pub sigma: f64,
-    /// Lower bound on any scale, by the setting `floor`; 0 when there is none.
+    /// Lower bound on any scale, by the setting `floor`; 0 when there is none. The median of [`Segment::floors`] where
+    /// each sample has its own.
     pub floor: f64,
+    /// Lower bound on the scale of each sample; empty where one holds for all.
+    pub floors: &'a [f64],
     /// The present samples of the rate channel, over the whole record.
     pub rate: Option<Rate<'a>>,
 }
@@ -37,13 +40,14 @@ pub struct Rate<'a> {
 impl<'a> Segment<'a> {
     /// The segment of `series` that `range` names.
     #[must_use]
-    pub fn of(series: &'a Series<'_>, range: &Range<usize>, scales: noise::Scales, rate: Option<Rate<'a>>) -> Self {
+    pub fn of(series: &'a Series<'_>, range: &Range<usize>, scales: &'a noise::Scales, rate: Option<Rate<'a>>) -> Self {
         Self {
             t: &series.t[range.clone()],
             y: &series.y[range.clone()],
             interval: series.interval,
             sigma: scales.sigma,
             floor: scales.floor,
+            floors: scales.floors.as_deref().map_or(&[], |floors| &floors[range.clone()]),
             rate,
         }
     }

@@ -29,7 +29,9 @@ pub fn detect(
         return Ok(detection);
     }
     let rate = rate_of(track, channel, setup)?;
-    Detection::of(Input { series: &series, rate: rate.as_ref() }, setup, stop)
+    // A channel is calibrated once; no setting changes what it is.
+    let calibration = previous.and_then(|p| p.calibration.clone());
+    Detection::calibrated(Input { series: &series, rate: rate.as_ref() }, setup, calibration, stop)
 }
 
 /// The samples of the channel that measures the rate of `channel`, where the method of `setup` needs one.
