@@ -59,7 +59,7 @@ impl Record {
 
     fn segment(&self) -> Segment<'_> {
         let rate = Some(Rate { t: &self.t, y: &self.rate });
-        Segment { t: &self.t, y: &self.y, interval: 0.125, sigma: 1.0, floor: 0.0, floors: &[], rate }
+        Segment { t: &self.t, y: &self.y, interval: 0.125, sigma: 1.0, floor: 0.0, floors: &[], objections: &[], rate }
     }
 
     fn judged(&self, id: &str, changes: &[(&str, &str)]) -> Judged {

@@ -14,7 +14,7 @@ fn judged(id: &str, y: &[f64], settings: &[(&str, &str)]) -> Judged {
         chosen.set_text(id, key, value).expect("a legal setting");
     }
     let t: Vec<f64> = (0..y.len()).map(|i| i as f64).collect();
-    let segment = Segment { t: &t, y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], rate: None };
+    let segment = Segment { t: &t, y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate: None };
     method.judge(&segment, &chosen, &Stop::never()).expect("nobody stops it")
 }
 

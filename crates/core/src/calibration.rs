@@ -29,7 +29,7 @@ use background::background;
 use coast::coast;
 use residual::residuals;
 use resolution::resolution;
-use stretches::stretches;
+pub use stretches::{local_interval, stretches};
 use threshold::{tail_weight, threshold};
 
 /// What is known of a channel before a method judges it.
@@ -41,10 +41,16 @@ pub struct Calibration {
     pub held: f64,
     /// For each present sample the residual at which noise ends, in channel units; infinite where nothing is known.
     pub limits: Vec<f64>,
+    /// For each present sample how far it lies outside of all that the neighbours on either side let expect, in channel
+    /// units; 0 inside. Where only one side has neighbours, a tenth of that.
+    pub objections: Vec<f64>,
 }
 
 /// A record holds values when at least this share of its samples repeats the one before.
 const HOLDS: f64 = 0.2;
+
+/// More lost samples in a row than this are a gap.
+const MAX_GAP: usize = 5;
 
 /// Half lengths of the windows of residuals: 21 and 41 samples.
 const WINDOWS: [usize; 2] = [10, 20];
@@ -81,14 +87,16 @@ impl Calibration {
 pub fn calibrate(series: &Series<'_>, stop: &Stop) -> Result<Calibration, Stopped> {
     let (t, y) = (series.t.as_ref(), series.y.as_ref());
     let held = share_held(y);
-    let record = Record { t, y, stretches: stretches(t), holds: held >= HOLDS, resolution: resolution(y) };
+    let record = Record { t, y, stretches: stretches(t, Some(MAX_GAP)), holds: held >= HOLDS, resolution: resolution(y) };
     stop.check()?;
     let mut masked = coarse_mask(&record, stop)?;
     let mut limits = round(&record, &mut masked, Round::First, stop)?;
     for pass in [Round::Further, Round::Last] {
         limits = round(&record, &mut masked, pass, stop)?;
     }
-    Ok(Calibration { resolution: record.resolution, held, limits })
+    coast(&record, &limits, &mut masked, stop)?;
+    let objections = residual::outside(&record, &masked, stop)?;
+    Ok(Calibration { resolution: record.resolution, held, limits, objections })
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,11 +5,15 @@ use std::ops::Range;
 /// Steps on either side that say what is usual here.
 const NEAR: usize = 12;
 
-/// A step of more than so many usual ones is a gap: more than five samples are lost.
-const GAP: f64 = 6.5;
-
-/// The stretches of `t` (increasing) between gaps.
-pub(super) fn stretches(t: &[f64]) -> Vec<Range<usize>> {
+/// The stretches of `t` (increasing) between gaps: steps in which more than `max_gap` samples are lost by the steps
+/// around them; none: never.
+#[must_use]
+pub fn stretches(t: &[f64], max_gap: Option<usize>) -> Vec<Range<usize>> {
+    let Some(max_gap) = max_gap else {
+        return if t.is_empty() { Vec::new() } else { std::iter::once(0..t.len()).collect() };
+    };
+    #[expect(clippy::cast_precision_loss, reason = "at most a million")]
+    let gap = max_gap as f64 + 1.5;
     let step: Vec<f64> = t.windows(2).map(|w| w[1] - w[0]).collect();
     let (mut all, mut start) = (Vec::new(), 0);
     let mut near = Vec::with_capacity(2 * NEAR);
@@ -18,10 +22,10 @@ pub(super) fn stretches(t: &[f64]) -> Vec<Range<usize>> {
         near.extend_from_slice(&step[i.saturating_sub(NEAR)..i]);
         near.extend_from_slice(&step[i + 1..step.len().min(i + 1 + NEAR)]);
         // Most steps are as long as one of their neighbours.
-        if near.iter().any(|other| dt <= other) && near.len() > 1 && *dt <= GAP * near[0].min(near[near.len() - 1]) {
+        if near.iter().any(|other| dt <= other) && near.len() > 1 && *dt <= gap * near[0].min(near[near.len() - 1]) {
             continue;
         }
-        if !near.is_empty() && *dt > GAP * super::quantile(&mut near, 0.75) {
+        if !near.is_empty() && *dt > gap * super::quantile(&mut near, 0.75) {
             all.push(start..i + 1);
             start = i + 1;
         }
@@ -32,6 +36,14 @@ pub(super) fn stretches(t: &[f64]) -> Vec<Range<usize>> {
     all
 }
 
+/// The nominal interval of a stretch: three quarters of its steps are no longer, so that a record of two rates, or of
+/// samples in bursts, has lost nothing between them. NaN with fewer than two samples.
+#[must_use]
+pub fn local_interval(t: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = t.windows(2).map(|w| w[1] - w[0]).collect();
+    if steps.is_empty() { f64::NAN } else { super::quantile(&mut steps, 0.75) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -40,8 +52,8 @@ mod tests {
     fn a_change_of_rate_is_no_gap_and_a_long_step_is_one() {
         let mut t: Vec<f64> = (0..50).map(|i| 0.05 * f64::from(i)).collect();
         t.extend((0..50).map(|i| 3.45 + f64::from(i)));
-        assert_eq!(stretches(&t).as_slice(), std::slice::from_ref(&(0..100)));
+        assert_eq!(stretches(&t, Some(5)).as_slice(), std::slice::from_ref(&(0..100)));
         t.iter_mut().skip(80).for_each(|t| *t += 20.0);
-        assert_eq!(stretches(&t), [0..80, 80..100]);
+        assert_eq!(stretches(&t, Some(5)), [0..80, 80..100]);
     }
 }

@@ -189,7 +189,7 @@ mod tests {
 
     fn judged(y: &[f64], sigma: f64, change: &[(&str, Value)]) -> Judged {
         let t: Vec<f64> = (0..y.len()).map(|i| i as f64).collect();
-        let segment = Segment { t: &t, y, interval: 1.0, sigma, floor: 0.0, floors: &[], rate: None };
+        let segment = Segment { t: &t, y, interval: 1.0, sigma, floor: 0.0, floors: &[], objections: &[], rate: None };
         let mut settings = Settings::defaults(&PARAMS);
         change.iter().for_each(|(key, value)| settings.set("diff-median", key, *value).unwrap());
         DiffMedian.judge(&segment, &settings, &Stop::never()).unwrap()

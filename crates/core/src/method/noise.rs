@@ -32,6 +32,8 @@ pub struct Scales {
     pub floor: f64,
     /// Lower bound on the scale of each sample of the channel, where the setting `floor` asks for that.
     pub floors: Option<Arc<[f64]>>,
+    /// How far each sample of the channel lies outside of what both sides expect; with `floors`.
+    pub objections: Option<Arc<[f64]>>,
 }
 
 /// The scales of each segment under `settings` (which may have neither `sigma` nor `floor`); the channel is calibrated
@@ -67,6 +69,8 @@ pub fn scales_by(
     stop: &Stop,
 ) -> Result<Vec<Scales>, Stopped> {
     let own = calibration.filter(|_| by_record(settings)).map(|c| record_floors(c, settings));
+    let objections: Option<Arc<[f64]>> =
+        calibration.filter(|_| own.is_some()).map(|c| c.objections.iter().copied().collect());
     let floors = match (choice(settings, "floor"), &own) {
         (None, _) => vec![0.0; segments.len()],
         (Some(Choice::Number(x)), _) => vec![x; segments.len()],
@@ -90,7 +94,7 @@ pub fn scales_by(
         } else {
             floor
         };
-        Ok(Scales { sigma, floor, floors: own.clone() })
+        Ok(Scales { sigma, floor, floors: own.clone(), objections: objections.clone() })
     })
     .collect()
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::noise;
+use crate::calibration::local_interval;
 use crate::math::movement;
 use crate::series::Series;
 use crate::stop::{Stop, Stopped};
@@ -14,7 +15,8 @@ pub struct Segment<'a> {
     pub t: &'a [f64],
     /// Values, finite, as many.
     pub y: &'a [f64],
-    /// Nominal interval of the whole channel in seconds; NaN when the channel has one sample.
+    /// Nominal interval in seconds, of the whole channel or, where the record was calibrated, of the segment; NaN where
+    /// that has one sample.
     pub interval: f64,
     /// Noise scale by the setting `sigma`, at least [`Segment::floor`]; 0 when it counts as zero (section 1 of the
     /// methods page), and for methods without that setting.
@@ -24,6 +26,11 @@ pub struct Segment<'a> {
     pub floor: f64,
     /// Lower bound on the scale of each sample; empty where one holds for all.
     pub floors: &'a [f64],
+    /// How far each sample lies outside of what both sides expect ([`Calibration::objections`]); with
+    /// [`Segment::floors`].
+    ///
+    /// [`Calibration::objections`]: crate::calibration::Calibration::objections
+    pub objections: &'a [f64],
     /// The present samples of the rate channel, over the whole record.
     pub rate: Option<Rate<'a>>,
 }
@@ -44,10 +51,11 @@ impl<'a> Segment<'a> {
         Self {
             t: &series.t[range.clone()],
             y: &series.y[range.clone()],
-            interval: series.interval,
+            interval: if scales.floors.is_some() { local_interval(&series.t[range.clone()]) } else { series.interval },
             sigma: scales.sigma,
             floor: scales.floor,
-            floors: scales.floors.as_deref().map_or(&[], |floors| &floors[range.clone()]),
+            floors: scales.floors.as_deref().map_or(&[], |all| &all[range.clone()]),
+            objections: scales.objections.as_deref().map_or(&[], |all| &all[range.clone()]),
             rate,
         }
     }

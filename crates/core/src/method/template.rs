@@ -223,7 +223,7 @@ mod tests {
             ] {
                 settings.set("template", key, value).unwrap();
             }
-            let segment = Segment { t: &t, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], rate: None };
+            let segment = Segment { t: &t, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate: None };
             let judged = Template.judge(&segment, &settings, &Stop::never()).unwrap();
             let (flags, expected) = plain(&t, &y, n as usize, rms, feedback);
             for i in 0..y.len() {
