@@ -3,6 +3,8 @@
 //! The modules are layers: each imports only from those listed before it (`tests/layers.rs` holds them to that).
 
 pub mod batch;
+pub mod calibration;
+pub mod check;
 pub mod cli;
 pub mod error;
 pub mod experiment;

@@ -6,9 +6,11 @@
 
 use crate::error::{Error, Result, nearest};
 
+mod numbers;
 mod settings;
 mod value;
 
+pub use numbers::Numbers;
 pub use settings::Settings;
 pub use value::{Choice, Value};
 
@@ -72,6 +74,8 @@ pub enum Kind {
         /// Largest legal number.
         max: i64,
     },
+    /// Up to [`Numbers::MOST`] numbers.
+    Numbers,
 }
 
 /// How far one step of the panel goes on a real scale.
@@ -125,6 +129,7 @@ impl Param {
                 format!("{} | a number {least} to {most}", words.join(" | "))
             }
             Kind::WholeOrOff { min, max } => format!("off | {min} .. {max}"),
+            Kind::Numbers => format!("up to {} numbers", Numbers::MOST),
         }
     }
 
@@ -145,6 +150,7 @@ impl Param {
             },
             Kind::RealOr { words, .. } => word(words, text).or_else(|| text.parse().ok().map(Value::Real)),
             Kind::WholeOrOff { .. } => word(&["off"], text).or_else(|| text.parse().ok().map(Value::Whole)),
+            Kind::Numbers => Numbers::parse(text).map(Value::Numbers),
         };
         read.filter(|v| self.accepts(*v)).ok_or_else(|| self.refuse(text))
     }
@@ -170,7 +176,7 @@ impl Param {
             (Kind::Real { min, max, .. } | Kind::RealOr { min, max, .. }, Value::Real(x)) => (min..=max).contains(&x),
             (Kind::Choice(words) | Kind::RealOr { words, .. }, Value::Word(w)) => words.contains(&w),
             (Kind::WholeOrOff { .. }, Value::Word(w)) => w == "off",
-            (Kind::Switch, Value::Switch(_)) => true,
+            (Kind::Switch, Value::Switch(_)) | (Kind::Numbers, Value::Numbers(_)) => true,
             _ => false,
         }
     }

@@ -17,18 +17,24 @@ mod command_line;
 mod document;
 mod edit;
 pub mod journal;
+mod preparation;
 mod replay;
 mod save;
+mod suggested;
 pub mod sweep;
 
-pub use analysis::{Counts, Detection, Fill, Mark, Outcome, Place, Run, detect, detect_together, settle};
+pub use analysis::{
+    Counts, Detection, Fill, Mark, Member, Objected, Outcome, Place, Run, detect, detect_taught, detect_together, settle,
+};
 pub use ballot::{Agreement, Ballot, candidates};
 pub use cleaned::{changes, clean_sha256, write_cleaned};
 pub use command_line::{clean_command, quoted, replay_command};
 pub use document::{parse, read, render};
 pub use edit::Edit;
+pub use preparation::{Preparation, is_period, parse_period};
 pub use replay::{Analysed, Opened, check, open, open_all};
 pub use save::document;
+pub use suggested::{Remedy, Suggestion, suggestions};
 
 /// The method when none is named.
 pub const DEFAULT_METHOD: &str = "two-sided";
@@ -81,6 +87,8 @@ pub struct Setup {
     pub rate: Option<String>,
     /// The knobs of repair, [`repair::PARAMS`].
     pub repair: Settings,
+    /// What is done with the channel before the method sees it.
+    pub preparation: Preparation,
 }
 
 /// What came out when the session was saved.
@@ -99,6 +107,7 @@ impl std::fmt::Debug for Setup {
             .field("settings", &self.settings)
             .field("rate", &self.rate)
             .field("repair", &self.repair)
+            .field("preparation", &self.preparation)
             .finish()
     }
 }
@@ -146,13 +155,31 @@ impl Setup {
     /// `method` with a preset and the default repair.
     #[must_use]
     pub fn new(method: &'static dyn Method, preset: Preset) -> Self {
-        Self { method, settings: preset.settings(method), rate: None, repair: Settings::defaults(repair::PARAMS) }
+        Self {
+            method,
+            settings: preset.settings(method),
+            rate: None,
+            repair: Settings::defaults(repair::PARAMS),
+            preparation: Preparation::default(),
+        }
     }
 
     /// True when both find the same outliers: they differ in the repair at most.
     #[must_use]
     pub fn same_detection(&self, other: &Self) -> bool {
+        self.same_method(other) && self.preparation == other.preparation
+    }
+
+    /// True when both ask the same of the same method, whatever is done with their channels before.
+    #[must_use]
+    pub fn same_method(&self, other: &Self) -> bool {
         self.method.about().id == other.method.about().id && self.settings == other.settings && self.rate == other.rate
+    }
+
+    /// The same with another preparation of the channel.
+    #[must_use]
+    pub fn prepared(self, preparation: &Preparation) -> Self {
+        Self { preparation: preparation.clone(), ..self }
     }
 
     /// True when this channel's detection depends on the other channels that share the setup.

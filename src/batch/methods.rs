@@ -77,6 +77,7 @@ fn json(value: Value) -> serde_json::Value {
         Value::Real(x) => x.into(),
         Value::Word(w) => w.into(),
         Value::Switch(b) => b.into(),
+        Value::Numbers(list) => list.as_slice().to_vec().into(),
     }
 }
 

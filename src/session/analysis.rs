@@ -1,23 +1,27 @@
-//! From a plan to its result: detect, let the analyst's decisions win, repair what is left, fill gaps.
+//! From a plan to its result: check, detect, let the analyst's decisions win, repair what is left, fill gaps.
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use super::Setup;
+use crate::check;
 use crate::error::{Error, Result};
 use crate::math::pieces::{self, PIECE};
 use crate::method::noise::{self, Scales};
-use crate::method::{Damaged, Gated, Judged, Rate, Segment, Together, Verdict, judge_segments, segments};
+use crate::method::{self, Damaged, Gated, Judged, Rate, Segment, Together, Verdict, judge_segments, segments};
 use crate::repair::{self, Damage, Gap};
 use crate::review::{Decision, Decisions};
 use crate::stop::{Stop, Stopped};
 use crate::track::{Channel, Samples, Series, Track};
 
+mod circle;
 mod gaps;
 mod outcome;
+mod sight;
 
 use gaps::{GapPlaces, gaps_to_fill};
 pub use outcome::{Counts, Fill, Mark, Outcome, Place, Run};
+use sight::{By, Sight, Taught, taught};
 
 /// What a method says of a channel, before anybody decided anything.
 #[derive(Debug, Clone)]
@@ -30,13 +34,26 @@ pub struct Detection {
     pub scales: Vec<Scales>,
     /// One entry per present sample.
     pub judged: Gated,
+    /// What of the channel the method saw.
+    sight: Arc<Sight>,
+    /// The decisions that it was shown.
+    taught: Taught,
+}
+
+/// Why the method did not see a sample.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Objected {
+    /// Id of the check.
+    pub by: &'static str,
+    /// The evidence in a few words.
+    pub evidence: String,
 }
 
 /// Runs the method of `setup` over a channel. With `previous`, a detection of the same channel that differs in a
 /// multiplier that only gates, its scores are used again; the result is the same to the last bit.
 ///
 /// # Errors
-/// [`Error::Stopped`]; [`Error::Usage`] when the method needs a rate channel and has none.
+/// [`Error::Stopped`]; [`Error::Usage`] when the method needs a rate channel, or a check a channel, and has none.
 pub fn detect(
     track: &Track,
     channel: &Channel,
@@ -45,27 +62,61 @@ pub fn detect(
     previous: Option<&Detection>,
     stop: &Stop,
 ) -> Result<Detection> {
-    let series = samples.series(channel, &track.time);
-    if let Some(previous) = previous
-        && let Some(judged) = regated(previous, setup, &series, stop)?
+    detect_taught(track, channel, samples, (setup, &Decisions::default()), previous, stop)
+}
+
+/// [`detect`] that lets the method learn from the analyst's decisions, where the setup says so.
+///
+/// # Errors
+/// As [`detect`].
+pub fn detect_taught(
+    track: &Track,
+    channel: &Channel,
+    samples: &Samples,
+    (setup, decisions): (&Setup, &Decisions),
+    previous: Option<&Detection>,
+    stop: &Stop,
+) -> Result<Detection> {
+    let measured = samples.series(channel, &track.time);
+    let taught = taught(&setup.preparation, decisions);
+    if let Some(previous) = previous.filter(|previous| previous.taught == taught)
+        && let Some(judged) = regated(previous, setup, &measured, stop)?
     {
-        let (segments, scales) = (previous.segments.clone(), previous.scales.clone());
-        return Ok(Detection { setup: setup.clone(), segments, scales, judged });
+        return Ok(Detection { setup: setup.clone(), judged, ..previous.clone() });
     }
+    let sight = Arc::new(Sight::of(track, channel, &measured, (&setup.preparation, &taught), stop)?);
+    let series = sight.series(&measured);
     let rate = rate_channel(track, channel, setup)?.map(|c| Series::of(c, &track.time));
     let rate = rate.as_ref().map(|r| Rate { t: &r.t, y: &r.y });
     let segments = segments(&series, &setup.settings, stop)?;
     let scales = noise::scales(&series, &segments, &setup.settings, stop)?;
     let judged = judge_segments(setup.method, &series, (&segments, &scales), rate, &setup.settings, stop)?;
-    Ok(Detection::new(setup.clone(), segments, scales, judged))
+    let part = Together { segments, scales, judged };
+    Detection::seen(setup, part, (sight, taught), &measured, stop)
 }
 
 impl Detection {
     /// What a method said under `setup`.
     #[must_use]
     pub fn new(setup: Setup, segments: Vec<Range<usize>>, scales: Vec<Scales>, judged: Judged) -> Self {
-        let k = setup.method.gate(&setup.settings).map(|key| setup.settings.real(key));
-        Self { setup, segments, scales, judged: Gated::new(judged, k) }
+        let judged = Gated::new(judged, gate_of(&setup));
+        Self { setup, segments, scales, judged, sight: Arc::default(), taught: Taught::new() }
+    }
+
+    /// What a method said of the samples that it saw.
+    fn seen(
+        setup: &Setup,
+        said: Together,
+        (sight, taught): (Arc<Sight>, Taught),
+        measured: &Series<'_>,
+        stop: &Stop,
+    ) -> Result<Self> {
+        let segments = sight.segments(said.segments, measured.len());
+        let scales = sight.scales(said.scales, segments.len());
+        let judged = sight.spread(said.judged, &measured.y, gate_of(setup), stop)?;
+        let found = Self::new(setup.clone(), segments, scales, judged);
+        let judged = found.judged.with_unseen(sight.unseen());
+        Ok(Self { judged, sight, taught, ..found })
     }
 
     /// The same detection under a setup that differs in the repair alone.
@@ -73,6 +124,50 @@ impl Detection {
     pub fn with_repair(&self, setup: &Setup) -> Self {
         Self { setup: setup.clone(), ..self.clone() }
     }
+
+    /// True when it is what [`detect_taught`] would find under this setup and these decisions, but for the repair.
+    #[must_use]
+    pub fn holds_for(&self, setup: &Setup, decisions: &Decisions) -> bool {
+        self.setup.same_detection(setup) && self.taught == taught(&setup.preparation, decisions)
+    }
+
+    /// The check that objects to the sample at `position`, with its evidence; none where none does.
+    #[must_use]
+    pub fn objected(&self, position: usize) -> Option<Objected> {
+        let By::Check(index, objection) = self.sight.finding(position)?.by else { return None };
+        let check = self.setup.preparation.checks.get(index)?.check;
+        Some(Objected { by: check.about().id, evidence: check.evidence(&objection) })
+    }
+
+    /// Who judged the sample at `position`: the id of the check that objects to it, otherwise of the method.
+    #[must_use]
+    pub fn by(&self, position: usize) -> &'static str {
+        self.objected(position).map_or(self.setup.method.about().id, |objected| objected.by)
+    }
+
+    /// Positions of the samples that a check objects to, ascending.
+    pub fn checked(&self) -> impl Iterator<Item = usize> + '_ {
+        self.sight.findings.iter().filter(|f| matches!(f.by, By::Check(..))).map(|f| f.position as usize)
+    }
+
+    /// What checks object to: the index of the check in the plan, and its verdict, by position.
+    pub fn objections(&self) -> impl Iterator<Item = (usize, Verdict)> + '_ {
+        self.sight.findings.iter().filter_map(|f| match f.by {
+            By::Check(check, _) => Some((check, f.verdict)),
+            By::Analyst => None,
+        })
+    }
+
+    /// A value of the method's scale as the record writes it: on a circular channel within one period.
+    #[must_use]
+    pub fn written(&self, value: f64) -> f64 {
+        self.sight.written(value)
+    }
+}
+
+/// The multiplier that only gates.
+fn gate_of(setup: &Setup) -> Option<f64> {
+    setup.method.gate(&setup.settings).map(|key| setup.settings.real(key))
 }
 
 fn rate_channel<'a>(track: &'a Track, channel: &Channel, setup: &Setup) -> Result<Option<&'a Channel>> {
@@ -108,30 +203,46 @@ fn regated(
     let comparable = same.set(key, key, value).is_ok()
         && previous.setup.method.about().id == setup.method.about().id
         && same == setup.settings
+        && previous.setup.preparation == setup.preparation
         && previous.setup.rate == setup.rate;
     if comparable { previous.judged.regated(&series.y, setup.settings.real(key), stop) } else { Ok(None) }
 }
 
+/// A channel that is judged together with others.
+#[derive(Debug, Clone, Copy)]
+pub struct Member<'a> {
+    /// The channel.
+    pub channel: &'a Channel,
+    /// Its present samples.
+    pub samples: &'a Samples,
+    /// Its setup: the method and its settings are those of all members.
+    pub setup: &'a Setup,
+    /// The analyst's decisions about it.
+    pub decisions: &'a Decisions,
+}
+
 /// Runs a method that judges channels together ([`Method::together`](crate::method::Method::together)) over all
-/// `channels` that share `setup`; one detection for each.
+/// `members`; one detection for each.
 ///
 /// # Errors
-/// [`Error::Stopped`].
-pub fn detect_together(
-    track: &Track,
-    channels: &[(&Channel, &Samples)],
-    setup: &Setup,
-    stop: &Stop,
-) -> Result<Vec<Detection>> {
-    let series: Vec<Series<'_>> =
-        channels.iter().map(|(channel, samples)| samples.series(channel, &track.time)).collect();
+/// [`Error::Stopped`]; [`Error::Usage`] when a check needs a channel that the record does not have.
+pub fn detect_together(track: &Track, members: &[Member<'_>], stop: &Stop) -> Result<Vec<Detection>> {
+    let Some(Member { setup, .. }) = members.first() else { return Ok(Vec::new()) };
+    let measured: Vec<Series<'_>> = members.iter().map(|m| m.samples.series(m.channel, &track.time)).collect();
+    let see = |(member, measured): (&Member<'_>, &Series<'_>)| {
+        let taught = taught(&member.setup.preparation, member.decisions);
+        let sight = Sight::of(track, member.channel, measured, (&member.setup.preparation, &taught), stop)?;
+        Ok((Arc::new(sight), taught))
+    };
+    let sights: Vec<(Arc<Sight>, Taught)> = members.iter().zip(&measured).map(see).collect::<Result<_>>()?;
+    let series: Vec<Series<'_>> = sights.iter().zip(&measured).map(|((sight, _), m)| sight.series(m)).collect();
     let series: Vec<&Series<'_>> = series.iter().collect();
     let parts = setup.method.judge_together(&series, &setup.settings, stop)?;
-    let detection = |part: Together| {
-        let judged = part.judged.bounded(stop)?;
-        Ok(Detection::new(setup.clone(), part.segments, part.scales, judged))
+    let detection = |(((part, member), sight), measured): (((Together, &Member<'_>), &(Arc<Sight>, Taught)), &Series<'_>)| {
+        let part = Together { judged: part.judged.bounded(stop)?, ..part };
+        Detection::seen(member.setup, part, sight.clone(), measured, stop)
     };
-    parts.into_iter().map(detection).collect()
+    parts.into_iter().zip(members).zip(&sights).zip(&measured).map(detection).collect()
 }
 
 /// Lets the decisions win over the detection, repairs the outliers that hold, and fills gaps.
@@ -153,6 +264,7 @@ pub fn settle(
     let outliers = pieces::map(marks.len(), &|| stop.check(), of)?.concat();
     let gaps = gaps_to_fill(track, channel, &series, &detection, stop)?;
     let mut settled = Settled { fixes: Vec::with_capacity(outliers.len()), ..Settled::default() };
+    let seen = Seen { measured: &series, series: detection.sight.series(&series), detection: &detection };
     for (index, range) in detection.segments.iter().enumerate() {
         stop.check_at(64 * index)?;
         let from = outliers.partition_point(|&i| i < range.start);
@@ -160,13 +272,80 @@ pub fn settle(
         let gap = |limit: usize| gaps.partition_point(|g| g.before < limit);
         let inside: &[GapPlaces] = &gaps[gap(range.start + 1)..gap(range.end)];
         if from < to || !inside.is_empty() {
-            settled.mend(&series, &detection, index, &outliers[from..to], inside, stop)?;
+            settled.mend(&seen, index, &outliers[from..to], inside, stop)?;
         }
     }
     let Settled { fixes, runs, mut fills } = settled;
     fills.sort_by_key(|f: &Fill| f.place);
-    let counts = count(channel.rows(track), &detection, &marks, &fixes, &runs, fills.len(), stop)?;
+    let mut counts = count(channel.rows(track), &detection, &marks, &fixes, &runs, fills.len(), stop)?;
+    counts.by_checks = detection.checked().filter(|position| outliers.binary_search(position).is_ok()).count();
     Ok(Outcome { detection, marks, outliers, fixes, runs, fills, counts })
+}
+
+/// A channel as it was measured and as its method saw it.
+struct Seen<'a> {
+    measured: &'a Series<'a>,
+    series: Series<'a>,
+    detection: &'a Detection,
+}
+
+impl Seen<'_> {
+    /// What the method's own repair puts in place of `outliers` of the segment with this index, and for those that the
+    /// method did not see, what the check does that objects to them.
+    fn own_repair(&self, index: usize, outliers: &[usize], stop: &Stop) -> std::result::Result<Vec<f64>, Stopped> {
+        let Self { measured, series, detection } = self;
+        let (range, setup, sight) = (&detection.segments[index], &detection.setup, &detection.sight);
+        let seen_range = sight.seen_range(range);
+        let judged = detection.judged.part(range.clone());
+        let gathered = sight.gathered(&judged, range, &measured.y);
+        let places: Vec<Option<usize>> = outliers.iter().map(|&o| sight.seen(o)).collect();
+        let local: Vec<usize> = places.iter().flatten().map(|place| place - seen_range.start).collect();
+        let mut own = Vec::new();
+        if !seen_range.is_empty() {
+            let segment = Segment::of(series, &seen_range, detection.scales[index], None);
+            let judged = gathered.as_ref().map_or(judged, sight::Gathered::part);
+            let damaged = Damaged { segment: &segment, settings: &setup.settings, judged, outliers: &local };
+            own = setup.method.own_repair(&damaged, stop)?;
+        }
+        if local.len() == outliers.len() {
+            return Ok(own);
+        }
+        let line = self.line(range, outliers, stop)?;
+        let mut own = own.into_iter();
+        let value = |(i, place): (usize, &Option<usize>)| match place {
+            Some(_) => own.next().unwrap_or(f64::NAN),
+            None if detection.draws_line(outliers[i]) => line[i],
+            None => f64::NAN,
+        };
+        Ok(places.iter().enumerate().map(value).collect())
+    }
+
+    /// The line between the accepted samples on both sides of each of `outliers`.
+    fn line(
+        &self,
+        range: &Range<usize>,
+        outliers: &[usize],
+        stop: &Stop,
+    ) -> std::result::Result<Vec<f64>, Stopped> {
+        let local: Vec<usize> = outliers.iter().map(|o| o - range.start).collect();
+        let y = &self.detection.sight.values(self.measured)[range.clone()];
+        let t = &self.measured.t[range.clone()];
+        repair::line(&Damage { t, y, outliers: &local, own: &[], expected: &[] }, stop)
+    }
+}
+
+impl Detection {
+    /// True when `own` repair puts the line between its neighbours in place of a sample that the method did not see.
+    fn draws_line(&self, position: usize) -> bool {
+        match self.sight.finding(position).map(|f| f.by) {
+            Some(By::Check(index, _)) => {
+                let applied = self.setup.preparation.checks.get(index);
+                applied.is_some_and(|applied| applied.check.about().own == check::Own::Line)
+            }
+            Some(By::Analyst) => self.setup.method.about().own == method::Own::Expected,
+            None => false,
+        }
+    }
 }
 
 /// What takes the place of outliers and lost samples, segment by segment.
@@ -181,30 +360,28 @@ impl Settled {
     /// Repairs the outliers and fills the gaps of the segment with this index.
     fn mend(
         &mut self,
-        series: &Series<'_>,
-        detection: &Detection,
+        seen: &Seen<'_>,
         index: usize,
         outliers: &[usize],
         gaps: &[GapPlaces],
         stop: &Stop,
     ) -> std::result::Result<(), Stopped> {
         let check = || stop.check();
+        let (detection, sight) = (seen.detection, &seen.detection.sight);
         let (range, setup) = (&detection.segments[index], &detection.setup);
         let local = pieces::collect(outliers.len(), &check, |i| outliers[i] - range.start)?;
-        let segment = Segment::of(series, range, detection.scales[index], None);
         let own = match repair::chosen(&setup.repair).way {
             // Nobody asks for it otherwise.
-            repair::Way::Own => {
-                let judged = detection.judged.part(range.clone());
-                let damaged = Damaged { segment: &segment, settings: &setup.settings, judged, outliers: &local };
-                setup.method.own_repair(&damaged, stop)?
-            }
+            repair::Way::Own => seen.own_repair(index, outliers, stop)?,
             _ => Vec::new(),
         };
+        let (values, measured) = (sight.values(seen.measured), &seen.measured.y);
         let expected = detection.judged.expected();
-        let expected = pieces::collect(local.len(), &check, |i| expected[outliers[i]])?;
-        let damage = Damage { t: segment.t, y: segment.y, outliers: &local, own: &own, expected: &expected };
-        self.fixes.extend(repair::repair(&damage, &setup.repair, stop)?);
+        let expected = pieces::collect(local.len(), &check, |i| sight.unwrapped(expected[outliers[i]], outliers[i], measured))?;
+        let (t, y) = (&seen.measured.t[range.clone()], &values[range.clone()]);
+        let damage = Damage { t, y, outliers: &local, own: &own, expected: &expected };
+        let fixes = repair::repair(&damage, &setup.repair, stop)?;
+        self.fixes.extend(fixes.into_iter().map(|fix| sight.written(fix)));
         self.runs.extend(repair::runs(&local).map(|r| Run { start: range.start + local[r.start], length: r.len() }));
         let holes: Vec<Gap> = gaps
             .iter()
@@ -215,7 +392,7 @@ impl Settled {
             self.fills.extend(gap.at.iter().zip(values).map(|(&(place, seconds), value)| Fill {
                 place,
                 seconds,
-                value,
+                value: sight.written(value),
             }));
         }
         Ok(())
@@ -278,6 +455,7 @@ fn count(
     let removed = fixes.iter().filter(|v| v.is_nan()).count();
     let isolated = runs.iter().filter(|r| r.length == 1).count();
     Ok(Counts {
+        by_checks: 0,
         rows,
         present: verdict.len(),
         missing: rows - verdict.len(),

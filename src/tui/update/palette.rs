@@ -171,7 +171,7 @@ fn values(
         Kind::Choice(words) | Kind::RealOr { words, .. } => words,
         Kind::Switch => &["true", "false"],
         Kind::WholeOrOff { .. } => &["off"],
-        Kind::Whole { .. } | Kind::Real { .. } => &[],
+        Kind::Whole { .. } | Kind::Real { .. } | Kind::Numbers => &[],
     };
     words.iter().for_each(|word| add((*word).to_owned(), String::new()));
     for (steps, help) in [(-1, "one step down"), (1, "one step up")] {
