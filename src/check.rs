@@ -12,6 +12,7 @@ use crate::param::{Choice, Param, Settings, Value};
 use crate::stop::{Stop, Stopped};
 
 mod applied;
+mod by_method;
 mod islands;
 pub mod missing_values;
 pub mod null_island;
@@ -33,15 +34,16 @@ pub static CHECKS: &[&dyn Check] = &[
     &position::Position,
 ];
 
-/// The check with this id.
+/// The check with this id; the id of a method stands for a check that it makes.
 ///
 /// # Errors
 /// [`Error::Usage`] with the checks there are and the nearest.
 pub fn find(id: &str) -> Result<&'static dyn Check, Error> {
-    CHECKS.iter().copied().find(|c| c.about().id == id).ok_or_else(|| {
+    let registered = CHECKS.iter().copied().find(|c| c.about().id == id);
+    registered.or_else(|| by_method::find(id)).ok_or_else(|| {
         let ids: Vec<&str> = CHECKS.iter().map(|c| c.about().id).collect();
         let hint = nearest(id, ids.iter().copied()).map_or(String::new(), |k| format!("did you mean {k}? "));
-        Error::usage(format!("{id}: there is no such check"), format!("{hint}checks: {}", ids.join(", ")))
+        Error::usage(format!("{id}: there is no such check"), format!("{hint}checks: {}; or the id of a method", ids.join(", ")))
     })
 }
 
@@ -164,5 +166,61 @@ fn number(settings: &Settings, key: &str) -> Option<f64> {
             Choice::Number(x) => Some(x),
             Choice::Word(_) => None,
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::method::METHODS;
+    use crate::param::{Kind, Numbers};
+
+    #[test]
+    fn ids_and_keys_are_unique_and_every_declared_value_is_legal() {
+        let mut ids: Vec<&str> = METHODS.iter().map(|m| m.about().id).collect();
+        for about in CHECKS.iter().map(|c| c.about()) {
+            assert!(!ids.contains(&about.id) && about.help.len() > 20, "{}", about.id);
+            ids.push(about.id);
+            for (i, param) in about.params.iter().enumerate() {
+                let of = format!("{}.{}", about.id, param.key);
+                assert!(about.params[..i].iter().all(|p| p.key != param.key), "{of} comes twice");
+                assert!(param.accepts(param.default) && param.help.len() > 5, "{of}");
+                assert_eq!(param.parse(&param.default.to_string()).ok(), Some(param.default), "{of} reads back");
+                assert!(!["check", "channels", "on"].contains(&param.key), "{of}: a key of the session");
+            }
+        }
+    }
+
+    #[test]
+    fn short_constant_and_extreme_records_are_survived_at_every_end_of_every_range() {
+        let records: [&[f64]; 6] = [&[], &[1.0], &[1.0, 1e308], &[7.5; 60], &[1e308, -1e308, 1e308, 0.0], &[5e-324; 9]];
+        for check in CHECKS {
+            let about = check.about();
+            let defaults = Settings::defaults(about.params);
+            let mut all = vec![defaults.clone()];
+            for param in about.params {
+                let ends = match param.kind {
+                    Kind::Whole { min, max, .. } | Kind::WholeOrOff { min, max } => vec![Value::Whole(min), Value::Whole(max)],
+                    Kind::Real { min, max, .. } | Kind::RealOr { min, max, .. } => vec![Value::Real(min), Value::Real(max)],
+                    Kind::Choice(words) => words.iter().map(|w| Value::Word(w)).collect(),
+                    Kind::Switch => vec![Value::Switch(false), Value::Switch(true)],
+                    Kind::Numbers => vec![Value::Numbers(Numbers::NONE)],
+                };
+                for end in ends {
+                    let mut settings = defaults.clone();
+                    settings.set(about.id, param.key, end).unwrap();
+                    all.push(settings);
+                }
+            }
+            for (y, settings) in records.iter().flat_map(|y| all.iter().map(move |s| (*y, s))) {
+                let t: Vec<f64> = (0..y.len()).map(|i| i as f64).collect();
+                let channels = vec![y.to_vec(), vec![f64::NAN; y.len()]];
+                let subject = Subject { t: &t, y, period: None, channels: &channels };
+                let found = check.examine(&subject, settings, &Stop::never()).unwrap();
+                let ascends = found.windows(2).all(|w| w[0].position < w[1].position);
+                assert!(ascends && found.iter().all(|o| o.position < y.len()), "{} {y:?}", about.id);
+                found.iter().for_each(|o| assert!(!check.evidence(o).is_empty()));
+            }
+        }
     }
 }

@@ -15,7 +15,7 @@ mod experiments;
 mod prepare;
 
 pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
-pub use prepare::{PrepareArgs, position_check};
+pub use prepare::PrepareArgs;
 mod screen;
 mod tools;
 pub use screen::{Color, ConfigArgs, Glyphs};

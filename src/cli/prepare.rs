@@ -3,9 +3,9 @@
 use clap::Args;
 
 use super::PresetArg;
-use crate::check::{Applied, parse_all, position};
+use crate::check::parse_all;
 use crate::error::{Error, Result};
-use crate::session::{Preparation, Session, parse_period};
+use crate::session::{Preparation, Session, parse_period, position_check};
 use crate::track::{Channel, Track};
 
 /// What is done with the channels before their methods see them.
@@ -79,21 +79,4 @@ impl PrepareArgs {
 fn no_such(track: &Track, name: &str, option: &str) -> Error {
     let names: Vec<&str> = track.channels.iter().map(|c| c.name.as_str()).collect();
     Error::usage(format!("{option} {name}: there is no such channel"), format!("channels: {}", names.join(", ")))
-}
-
-/// The check of the position of `names`, for one of its channels; none for another channel.
-///
-/// # Errors
-/// [`Error::Usage`] for a channel that the record does not have, and for a number of channels that make no position.
-pub fn position_check(track: &Track, channel: &Channel, names: &str) -> Result<Option<Applied>> {
-    let names: Vec<&str> = names.split(',').map(str::trim).collect();
-    let beside = |name: &&str| track.beside(channel, name).ok_or_else(|| no_such(track, name, "--position"));
-    let channels: Vec<&Channel> = names.iter().map(beside).collect::<Result<_>>()?;
-    let mut check = Applied::new(&position::Position);
-    check.channels = channels.iter().map(|c| c.name.clone()).collect();
-    let is_latitude = |c: &Channel| c.unit.starts_with("deg") || c.name.to_lowercase().starts_with("lat");
-    let geographic = channels.first().is_some_and(|c| is_latitude(c));
-    check.set_text(position::COORDINATES, if geographic { position::GEOGRAPHIC } else { position::CARTESIAN })?;
-    check.verify()?;
-    Ok(channels.iter().any(|c| c.column == channel.column).then_some(check))
 }

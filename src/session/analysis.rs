@@ -14,7 +14,6 @@ use crate::review::{Decision, Decisions};
 use crate::stop::{Stop, Stopped};
 use crate::track::{Channel, Samples, Series, Track};
 
-mod circle;
 mod gaps;
 mod outcome;
 mod sight;

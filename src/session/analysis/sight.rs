@@ -4,9 +4,9 @@
 
 use std::ops::Range;
 
-use super::circle::Circle;
 use crate::check::{Applied, Objection, Subject};
 use crate::error::{Error, Result};
+use crate::math::circle::Circle;
 use crate::method::noise::Scales;
 use crate::method::{Directions, Judged, Part, Restart, Verdict};
 use crate::review::{Decision, Decisions, Ruling};
@@ -109,7 +109,7 @@ impl Sight {
             }
         }
         kept = (!findings.is_empty()).then(|| others(measured.len(), &findings));
-        let circle = preparation.period.map(|period| Circle::of(&measured.y, kept.as_deref(), period, stop)).transpose()?;
+        let circle = preparation.period.map(|period| Circle::of(&measured.y, kept.as_deref(), period, &|| stop.check())).transpose()?;
         Ok(Self { findings, kept, circle })
     }
 

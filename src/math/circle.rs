@@ -1,16 +1,16 @@
-//! Circular channels: unwrapped for the method, wrapped in what is written.
+//! Values that go round: a heading from 359 to 0. Unwrapped they lie on a scale without a seam.
 
-use crate::math::order::median_in_place;
-use crate::stop::{Stop, Stopped};
+use super::order::median_in_place;
+use super::pieces::{Check, PIECE};
 
 /// A circular channel on a scale without a seam.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Circle {
+pub struct Circle {
     period: f64,
     /// The smallest value that the record writes: 0, or minus half of the period.
     low: f64,
     /// One value for each measured sample, which differs from it by whole periods.
-    pub(super) unwrapped: Vec<f64>,
+    pub unwrapped: Vec<f64>,
 }
 
 /// The samples that say where the next one is looked for.
@@ -24,8 +24,8 @@ impl Circle {
     /// all are) lead nothing.
     ///
     /// # Errors
-    /// [`Stopped`] as soon as nobody waits for the result any more.
-    pub(super) fn of(y: &[f64], kept: Option<&[u32]>, period: f64, stop: &Stop) -> Result<Self, Stopped> {
+    /// What `check` gives, which is asked before each piece of work.
+    pub fn of<E>(y: &[f64], kept: Option<&[u32]>, period: f64, check: &impl Check<E>) -> Result<Self, E> {
         let negative = match kept {
             Some(kept) => kept.iter().any(|&i| y[i as usize] < 0.0),
             None => y.iter().any(|y| *y < 0.0),
@@ -35,7 +35,9 @@ impl Circle {
         let mut kept = kept.map(|kept| kept.iter().copied().peekable());
         let mut unwrapped = Vec::with_capacity(y.len());
         for (i, &y) in y.iter().enumerate() {
-            stop.check_at(i)?;
+            if i.is_multiple_of(PIECE) {
+                check()?;
+            }
             let place = nearest(y, lead.next(), period);
             #[expect(clippy::cast_possible_truncation, reason = "the loader refuses files of 2^32 rows and more")]
             if kept.as_mut().is_none_or(|kept| kept.next_if_eq(&(i as u32)).is_some()) {
@@ -47,14 +49,14 @@ impl Circle {
     }
 
     /// A value of the unwrapped scale as the record writes it.
-    pub(super) fn wrapped(&self, value: f64) -> f64 {
+    pub fn wrapped(&self, value: f64) -> f64 {
         let wrapped = value - self.period * ((value - self.low) / self.period).floor();
         // Rounding may end on the far end, which is the near one.
         if wrapped >= self.low + self.period { self.low } else { wrapped }
     }
 
     /// Brings values of the unwrapped scale to the turn of the measured samples `y`.
-    pub(super) fn back(&self, values: &mut [f64], y: &[f64]) {
+    pub fn back(&self, values: &mut [f64], y: &[f64]) {
         for ((value, y), unwrapped) in values.iter_mut().zip(y).zip(&self.unwrapped) {
             *value -= unwrapped - y;
         }
@@ -107,9 +109,10 @@ fn keep(values: &mut Vec<f64>, value: f64, most: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::pieces::{certain, to_the_end};
 
     fn unwrapped(y: &[f64], kept: Option<&[u32]>) -> Circle {
-        Circle::of(y, kept, 360.0, &Stop::never()).unwrap()
+        certain(Circle::of(y, kept, 360.0, &to_the_end))
     }
 
     fn turn(n: usize, rate: f64) -> Vec<f64> {
