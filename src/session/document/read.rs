@@ -97,7 +97,7 @@ struct WrittenChannel {
 
 #[derive(Deserialize)]
 struct WrittenCheck {
-    check: Spanned<String>,
+    check: String,
     #[serde(default)]
     channels: Vec<String>,
     #[serde(default = "yes")]
@@ -286,7 +286,7 @@ impl Reader<'_> {
     fn check(&self, written: Spanned<WrittenCheck>) -> Result<Applied> {
         let line = self.line(written.span());
         let WrittenCheck { check, channels, on, settings } = written.into_inner();
-        let mut applied = Applied::new(find_check(check.get_ref()).map_err(|e| self.wrap(line, e))?);
+        let mut applied = Applied::new(find_check(&check).map_err(|e| self.wrap(line, e))?);
         (applied.channels, applied.on) = (channels, on);
         for (key, value) in settings {
             find(applied.check.about().params, applied.id(), &key)
