@@ -200,7 +200,10 @@ impl Param {
             }
             (Kind::Real { min, max, step }, Value::Real(x)) => Value::Real(step.from(x, steps).clamp(min, max)),
             (Kind::RealOr { min, max, .. }, Value::Real(x)) => {
-                Value::Real(Step::Times(1.122).from(x, steps).clamp(min.max(f64::MIN_POSITIVE), max))
+                let least = if min < 0.0 { min } else { min.max(f64::MIN_POSITIVE) };
+                // Up is up for negative numbers, too.
+                let steps = if x < 0.0 { -steps } else { steps };
+                Value::Real(Step::Times(1.122).from(x, steps).clamp(least, max))
             }
             (Kind::Choice(words) | Kind::RealOr { words, .. }, Value::Word(w)) => {
                 let at = words.iter().position(|x| *x == w).unwrap_or(0);
@@ -295,6 +298,16 @@ mod tests {
         assert!(message.contains("k = 0.1") && message.contains("0.5 .. 100"), "{message}");
         assert!(K.parse("nan").is_err());
         assert!(K.accept(Value::Whole(4)).is_ok_and(|v| v == Value::Real(4.0)));
+    }
+
+    #[test]
+    fn a_step_up_is_up_for_negative_numbers_too() {
+        let low = Param { kind: Kind::RealOr { words: &["off"], min: -1e300, max: 1e300 }, ..K };
+        let next = |steps| match low.step(Value::Real(-40.0), steps) {
+            Value::Real(x) => x,
+            other => panic!("{other}"),
+        };
+        assert!(next(1) > -40.0 && next(1) < -30.0 && next(-1) < -40.0 && next(-1) > -50.0);
     }
 
     #[test]
