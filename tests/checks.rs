@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
 
+#[expect(dead_code, reason = "other tests use all of it")]
 mod program;
 
 use std::fmt::Write as _;
@@ -226,6 +227,50 @@ fn decisions_teach_where_the_session_says_so() {
 }
 
 #[test]
+fn channels_that_are_judged_together_each_have_their_checks() {
+    let fill = |i: usize| (100..104).contains(&i) || (200..204).contains(&i);
+    let mut text = String::from("time_s,x_m,y_m\n");
+    for i in 0..400 {
+        let (x, y) = (level(i), 90.0 - 0.1 * i as f64 + 0.3 * noise(i + 9000));
+        let x = if fill(i) { -9999.0 } else { x };
+        let y = if i == 300 { 500.0 } else { y };
+        let _ = writeln!(text, "{i},{x:.2},{y:.2}");
+    }
+    let folder = Folder::with(&[("a.csv", text.as_bytes())]);
+    folder.done("clean a.csv --method kalman --set test=joint --flags flags.csv --save-session a.toml -q");
+    let flags = rows(&folder.text("flags.csv"));
+    let outlier = |row: usize, channel: &str, by: &str| {
+        let row = row.to_string();
+        flags.iter().any(|r| r[0] == row && r[2] == channel && r[4] == "outlier" && r[17] == by)
+    };
+    for i in (0..400).filter(|i| fill(*i)) {
+        assert!(outlier(i + 1, "x_m", "missing-values"), "row {}", i + 1);
+        assert!(!outlier(i + 1, "y_m", "kalman"), "row {}: the other channel is not drawn in", i + 1);
+    }
+    assert!(outlier(301, "y_m", "kalman") && outlier(301, "x_m", "kalman"), "one verdict for both");
+    assert!(folder.done("replay --check a.toml").contains("same result"));
+}
+
+#[test]
+fn a_method_follows_another_and_a_turned_multiplier_is_a_fresh_judgement() {
+    let text = record("v", 2, (0..500).map(|i| level(i) + if i % 60 == 30 { 30.0 } else { 0.0 }));
+    let folder = Folder::with(&[("a.csv", text.as_bytes())]);
+    folder.done("clean a.csv --check hampel:k=6 --method grubbs --flags flags.csv -q");
+    let flags = rows(&folder.text("flags.csv"));
+    assert_eq!(flags.iter().filter(|r| r[17] == "hampel" && r[4] == "outlier").count(), 8, "{flags:?}");
+    // A sweep turns the multiplier on the scores that it has: the counts are those of single runs.
+    let args = "--method poly-window --set feedback=false --check valid-range:high=60";
+    let swept = json(&folder.done(&format!("sweep a.csv {args} --from 2 --to 8 --steps 3 --json")));
+    for point in swept["points"].as_array().unwrap() {
+        let k = point["value"].as_f64().unwrap();
+        let one = json(&folder.done(&format!("clean a.csv {args} --set k={k} --json")));
+        let counts = &one["channels"][0]["counts"];
+        let by_method = counts["flagged"].as_u64().unwrap() - counts["by_checks"].as_u64().unwrap();
+        assert_eq!(point["flagged"].as_u64().unwrap(), by_method, "k = {k}");
+    }
+}
+
+#[test]
 fn a_session_says_what_is_wrong_with_a_check_and_where() {
     let text = record("v", 2, (0..50).map(level));
     let folder = Folder::with(&[("a.csv", text.as_bytes())]);
@@ -244,6 +289,18 @@ fn a_session_says_what_is_wrong_with_a_check_and_where() {
         assert_eq!(ran.status, 2, "{to}");
         assert!(ran.err.contains(words) && ran.err.contains("b.toml"), "{to}: {}", ran.err);
     }
+}
+
+#[test]
+fn the_report_and_the_list_of_methods_tell_of_checks() {
+    let text = record("v", 2, (0..300).map(|i| if i == 150 { 500.0 } else { level(i) }));
+    let folder = Folder::with(&[("a.csv", text.as_bytes())]);
+    folder.done("clean a.csv --check valid-range:low=0,high=100 --report r.md -q");
+    let report = folder.text("r.md");
+    assert!(report.contains("valid-range: above 100") && report.contains("check before the method"), "{report}");
+    assert!(report.contains("--check valid-range:low=0.0,high=100.0"), "the command says the same: {report}");
+    assert!(folder.done("methods").contains("null-island"));
+    assert!(folder.done("methods stuck").contains("--check stuck:KEY=VALUE"));
 }
 
 #[test]

@@ -63,6 +63,9 @@ fn longest_runs(y: &[f64]) -> Vec<Range<usize>> {
         }
         let run = start..i;
         start = i;
+        if long.len() > MOST && long[MOST].len() >= run.len() {
+            continue;
+        }
         let place = long.partition_point(|l| l.len() >= run.len());
         if place <= MOST {
             long.insert(place, run);

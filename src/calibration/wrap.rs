@@ -63,8 +63,10 @@ fn proposed(name: &str, unit: &str) -> Vec<f64> {
 /// a name that proposes it, the values must reach both ends, and cross often.
 fn consent(y: &[f64], period: f64, unnamed: bool) -> Option<usize> {
     let most = share(y.len(), WILD);
-    let inside = |low: f64| y.iter().filter(|v| **v < low - 1e-9 * period || **v > low + period * (1.0 + 1e-9)).count();
-    let low = [0.0, -period / 2.0].into_iter().find(|low| inside(*low) <= most)?;
+    let outside = |v: f64, low: f64| v < low - 1e-9 * period || v > low + period * (1.0 + 1e-9);
+    // One more than may be is enough.
+    let inside = |low: f64| y.iter().filter(|v| outside(**v, low)).nth(most).is_none();
+    let low = [0.0, -period / 2.0].into_iter().find(|low| inside(*low))?;
     let (mut crossings, mut other) = (0, 0);
     for i in 1..y.len() {
         let jump = (y[i] - y[i - 1]).abs();
