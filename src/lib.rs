@@ -1,25 +1,17 @@
 //! wildpoint: finding, reviewing and repairing wild points of tracking records.
 //!
-//! The modules are layers: each imports only from those listed before it (`tests/layers.rs` holds them to that).
+//! Numbers are in `wildpoint-core`, files in `wildpoint-record`; their modules are re-exported here. The modules are
+//! layers: each imports only from those below it (`tests/layers.rs`).
 
 pub mod batch;
-pub mod calibration;
-pub mod check;
 pub mod cli;
-pub mod error;
 pub mod experiment;
 pub mod job;
-pub mod math;
-pub mod method;
-pub mod param;
 pub mod plot;
-pub mod repair;
 pub mod report;
-pub mod review;
-pub mod score;
-pub mod session;
-pub mod stop;
 pub mod stream;
-pub mod track;
 pub mod tui;
 mod wrapped;
+
+pub use wildpoint_core::{calibration, check, error, math, method, param, repair, review, score, stop};
+pub use wildpoint_record::{session, track};

@@ -69,11 +69,15 @@ fn a_third_of_fill_values_is_taken_out_and_no_good_sample_is_touched() {
 
 #[test]
 fn one_absurd_value_is_a_fill_value_and_hides_no_wild_point() {
-    let text = record("v", 2, (0..200).map(|i| match i {
-        60 => 1e20,
-        120 => 90.0,
-        _ => level(i),
-    }));
+    let text = record(
+        "v",
+        2,
+        (0..200).map(|i| match i {
+            60 => 1e20,
+            120 => 90.0,
+            _ => level(i),
+        }),
+    );
     let folder = Folder::with(&[("a.csv", text.as_bytes())]);
     folder.done("clean a.csv --flags flags.csv -q");
     let flags = rows(&folder.text("flags.csv"));
@@ -90,7 +94,8 @@ fn a_frozen_stretch_is_told_and_kept_and_the_rest_is_judged_by_its_own_noise() {
     folder.done("clean a.csv -o clean.csv --flags flags.csv -q");
     assert_eq!(folder.text("clean.csv"), text, "doubtful samples are kept");
     let flags = rows(&folder.text("flags.csv"));
-    let stuck: Vec<usize> = flags.iter().filter(|r| r[4] == "suspect" && r[17] == "stuck").map(|r| r[0].parse().unwrap()).collect();
+    let stuck: Vec<usize> =
+        flags.iter().filter(|r| r[4] == "suspect" && r[17] == "stuck").map(|r| r[0].parse().unwrap()).collect();
     assert_eq!(stuck, (152..=240).collect::<Vec<_>>(), "all but the first sample");
     assert!(folder.done("inspect a.csv").contains("was stuck: one stretch of 90 equal values"));
 }
@@ -203,7 +208,15 @@ fn checks_are_made_for_every_method_and_refused_where_they_make_no_sense() {
 fn decisions_teach_where_the_session_says_so() {
     // A long patch widens every scale about it, and a wild point beside it passes; decided to be wild, the patch is
     // kept from the method, which then sees the point.
-    let wild = |i: usize| if (200..215).contains(&i) { 60.0 } else if i == 225 { 9.0 } else { 0.0 };
+    let wild = |i: usize| {
+        if (200..215).contains(&i) {
+            60.0
+        } else if i == 225 {
+            9.0
+        } else {
+            0.0
+        }
+    };
     let text = record("v", 2, (0..400).map(|i| 20.0 + noise(i) + wild(i)));
     let folder = Folder::with(&[("a.csv", text.as_bytes())]);
     folder.done("clean a.csv --method mean-window --set scale=rms --set window=61 --set feedback=false --save-session a.toml -q");
@@ -308,7 +321,9 @@ fn a_record_without_faults_has_no_checks_and_the_columns_it_had() {
     let text = record("v", 2, (0..300).map(level));
     let folder = Folder::with(&[("a.csv", text.as_bytes())]);
     let said = folder.done("clean a.csv --flags flags.csv --save-session a.toml");
-    assert!(!said.contains("checked") && folder.text("flags.csv").lines().next().unwrap().ends_with(",decided_by,note"));
+    assert!(
+        !said.contains("checked") && folder.text("flags.csv").lines().next().unwrap().ends_with(",decided_by,note")
+    );
     let saved = folder.text("a.toml");
     assert!(!saved.contains("checks =") && !saved.contains("period") && !saved.contains("exclude"), "{saved}");
 }

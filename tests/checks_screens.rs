@@ -24,7 +24,8 @@ struct Bench(Model);
 
 impl Bench {
     fn on(text: &str) -> Self {
-        let track = load(&Source::BuiltIn { name: "test", bytes: text.as_bytes().into() }, &LoadOptions::default()).unwrap();
+        let track =
+            load(&Source::BuiltIn { name: "test", bytes: text.as_bytes().into() }, &LoadOptions::default()).unwrap();
         let session = Session::new(&track, LoadOptions::default(), &Setup::standard()).with_suggestions(&track);
         let opening = Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() };
         let mut bench = Self(opening.model(Look { theme: Theme::mono(), glyphs: Glyphs::Unicode }));
@@ -118,11 +119,16 @@ fn a_check_is_made_by_a_command_stands_in_the_panel_and_says_why_on_the_card() {
     let check = bench.0.state().drawn.as_ref().unwrap().outcome.detection.objected(150).unwrap();
     assert_eq!((check.by, check.evidence.as_str()), ("valid-range", "above 100"));
     bench.keys("3");
-    bench.keys(&"j".repeat(bench.0.knobs().iter().position(|k| k.name() == "valid-range").unwrap() - bench.0.state().knob));
+    bench.keys(
+        &"j".repeat(bench.0.knobs().iter().position(|k| k.name() == "valid-range").unwrap() - bench.0.state().knob),
+    );
     let screen = bench.screen();
     assert!(screen.contains("valid-range") && screen.contains("‹ on ›"), "{screen}");
     bench.keys("h");
-    assert!(bench.toast().contains("valid-range off") && bench.0.state().drawn.as_ref().unwrap().outcome.detection.objected(150).is_none());
+    assert!(
+        bench.toast().contains("valid-range off")
+            && bench.0.state().drawn.as_ref().unwrap().outcome.detection.objected(150).is_none()
+    );
     bench.keys(":goto #151\r");
     bench.keys("gk");
     assert!(bench.screen().contains("valid-range: outlier: above 100"), "{}", bench.screen());
@@ -152,7 +158,15 @@ fn a_period_and_a_position_are_told() {
 
 #[test]
 fn a_decision_teaches_at_the_next_judgement() {
-    let wild = |i: usize| if (200..215).contains(&i) { 60.0 } else if i == 225 { 9.0 } else { 0.0 };
+    let wild = |i: usize| {
+        if (200..215).contains(&i) {
+            60.0
+        } else if i == 225 {
+            9.0
+        } else {
+            0.0
+        }
+    };
     let noise = |i: usize| ((i * 7919) % 101) as f64 / 50.0 - 1.0;
     let mut bench = Bench::on(&record((0..400).map(|i| 20.0 + noise(i) + wild(i))));
     bench.keys(":method mean-window\r:set scale rms\r:set window 61\r:set feedback false\r");

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use sha2::{Digest, Sha256};
 use wildpoint::experiment::{Cell, EXPERIMENTS, Reproduction, find, published};
 use wildpoint::report::reproduction_text;
-use wildpoint::track::{ColumnKind, LoadOptions, Series, Source, Track, load};
+use wildpoint::track::{ColumnKind, LoadOptions, Source, Track, load};
 
 fn reproduced(id: &str, runs: usize) -> Reproduction {
     find(id).and_then(|e| e.reproduce(None, Some(runs), &|| {})).expect("the experiment runs")
@@ -146,7 +146,7 @@ fn several_runs_are_cut_apart_and_are_those_of_the_following_seeds() {
     assert_eq!(all[1000..2000], of_second);
     let track = loaded(text);
     assert_eq!(track.columns.last().map(|c| (c.name.as_str(), c.kind)), Some(("run", ColumnKind::Text)));
-    let series = Series::of(&track.channels[0], &track.time);
+    let series = track.channels[0].series(&track.time);
     assert_eq!(series.segments(Some(5)), [0..1000, 1000..2000, 2000..3000]);
 }
 

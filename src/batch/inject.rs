@@ -35,7 +35,7 @@ pub(super) fn run(args: &InjectArgs, out: &mut dyn Write) -> Result<Ending> {
         let what = format!("there is a column `{}` already", there.name);
         return Err(Error::input(&args.file, what, "inject into the original record, or into another channel"));
     }
-    let series = Series::of(channel, &track.time);
+    let series = channel.series(&track.time);
     let was_wild = |row: usize| track.truth.as_ref().is_some_and(|t| t.get(row).copied().unwrap_or(false));
     let already: Vec<usize> = (0..series.len()).filter(|&i| was_wild(series.row(i))).collect();
     let injection = inject::inject(&series, &already, &args.plan())?;

@@ -5,7 +5,7 @@ use clap::Args;
 use super::PresetArg;
 use crate::check::parse_all;
 use crate::error::{Error, Result};
-use crate::session::{Preparation, Session, parse_period, position_check};
+use crate::session::{Preparation, Session, parse_period, position_check, suggested};
 use crate::track::{Channel, Track};
 
 /// What is done with the channels before their methods see them.
@@ -36,11 +36,11 @@ impl PrepareArgs {
     /// [`Error::Usage`] for an option that is not understood, or names a channel that is not there.
     pub fn of(&self, track: &Track, channel: &Channel, preset: PresetArg) -> Result<Preparation> {
         let wants = preset == PresetArg::Default && (self.check.is_empty() || self.period.is_empty());
-        let suggested = if wants { Preparation::suggested(channel) } else { Preparation::default() };
+        let own = if wants { suggested(channel) } else { Preparation::default() };
         let mut preparation = Preparation::default();
-        let checks = if self.check.is_empty() { suggested.checks } else { parse_all(&self.check)? };
+        let checks = if self.check.is_empty() { own.checks } else { parse_all(&self.check)? };
         checks.into_iter().for_each(|check| preparation.add(check));
-        preparation.period = suggested.period.filter(|_| self.period.is_empty());
+        preparation.period = own.period.filter(|_| self.period.is_empty());
         for text in &self.period {
             let (name, period) = text.rsplit_once('=').map_or((None, text.as_str()), |(name, p)| (Some(name), p));
             let period = parse_period(period)?;

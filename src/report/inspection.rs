@@ -9,7 +9,7 @@ use crate::method::shared::MAX_GAP;
 use crate::param::Value;
 use crate::session::{Remedy, Suggestion, suggestions};
 use crate::stop::{Stop, Stopped};
-use crate::track::{Delimiter, Encoding, FaultKind, Faults, Series, Track, printable, without_signed_zero};
+use crate::track::{Delimiter, Encoding, FaultKind, Faults, Track, printable, without_signed_zero};
 
 /// The facts of a file.
 #[derive(Debug, Clone, Serialize)]
@@ -231,7 +231,7 @@ fn magnitude(x: f64) -> i32 {
 }
 
 fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts {
-    let series = Series::of(channel, &track.time);
+    let series = channel.series(&track.time);
     let max_gap = match MAX_GAP.default {
         Value::Whole(n) => usize::try_from(n).ok(),
         _ => None,

@@ -248,7 +248,8 @@ fn checks(outcome: &Outcome) -> Vec<CheckSummary> {
         }
     }
     let made = applied.iter().zip(found).filter(|(applied, _)| applied.on);
-    made.map(|(applied, [outliers, suspects])| CheckSummary { check: applied.to_string(), outliers, suspects }).collect()
+    made.map(|(applied, [outliers, suspects])| CheckSummary { check: applied.to_string(), outliers, suspects })
+        .collect()
 }
 
 fn json_settings(settings: &Settings) -> serde_json::Map<String, serde_json::Value> {

@@ -7,9 +7,7 @@ use serde_json::Value as Json;
 use super::lines::Line;
 use crate::cli::FormatArg;
 use crate::error::{Error, Result};
-use crate::track::{
-    Cell, Cells, Delimiter, Dialect, LoadOptions, Reading, Source, TimeAxis, TimeFormat, Track, load, split,
-};
+use crate::track::{Cell, Delimiter, Dialect, LoadOptions, Reading, Source, TimeAxis, TimeFormat, Track, load};
 
 /// What a line holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,20 +144,13 @@ impl Layout {
     /// Date, time and value of a line of cells; empty where the layout has no such column, none where the line has
     /// too few cells.
     fn cells(&self, line: &Line) -> Option<[String; 3]> {
-        let mut spans = Vec::new();
-        split(&line.bytes, self.dialect.layout(&line.bytes), &mut spans);
-        let cells = Cells {
-            record: &line.bytes,
-            spans: &spans,
-            quote: self.dialect.quote,
-            encoding: self.dialect.encoding,
-            line: line.number,
-        };
-        let text = |column: Option<usize>| match column {
-            None => Some(String::new()),
-            Some(c) => (c < cells.len()).then(|| cells.text(c).into_owned()),
-        };
-        Some([text(self.axis.date_column)?, text(self.axis.column)?, text(Some(self.channel))?])
+        self.dialect.with_cells(&line.bytes, line.number, |cells| {
+            let text = |column: Option<usize>| match column {
+                None => Some(String::new()),
+                Some(c) => (c < cells.len()).then(|| cells.text(c).into_owned()),
+            };
+            Some([text(self.axis.date_column)?, text(self.axis.column)?, text(Some(self.channel))?])
+        })
     }
 
     /// The same of an object; a key that is not there has no value.

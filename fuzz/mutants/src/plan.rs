@@ -41,10 +41,16 @@ fn shared(a: &str, b: &str) -> usize {
     a.split("::").zip(b.split("::")).take_while(|(a, b)| a == b).count()
 }
 
-/// The path of the module in a file: `src/method/window.rs` is `method::window`.
+/// The path of the module in a file: `crates/core/src/method/window.rs` is `method::window`.
 #[must_use]
 pub fn module(file: &str) -> String {
-    file.trim_start_matches("src/").trim_end_matches(".rs").replace('/', "::")
+    in_crate(file).trim_end_matches(".rs").replace('/', "::")
+}
+
+/// The path of a file below `src` of its crate.
+#[must_use]
+pub fn in_crate(file: &str) -> &str {
+    file.split_once("src/").map_or(file, |(_, inside)| inside)
 }
 
 #[cfg(test)]
@@ -78,6 +84,6 @@ mod tests {
 
     #[test]
     fn the_module_of_a_file() {
-        assert_eq!(module("src/method/window/sorted.rs"), "method::window::sorted");
+        assert_eq!(module("crates/core/src/method/window/sorted.rs"), "method::window::sorted");
     }
 }

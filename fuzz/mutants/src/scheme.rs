@@ -79,18 +79,23 @@ fn files(tree: &Tree, list: &[Mutant], scheme: &mut Scheme) -> Result<BTreeMap<S
     Ok(files)
 }
 
-/// `texts` with the module of the switch and the line that takes it in.
+/// The crate that holds the switch, and the one that takes it from there.
+const CORE: &str = "crates/core/src/lib.rs";
+const RECORD: &str = "crates/record/src/lib.rs";
+
+/// `texts` with the module of the switch and the lines that take it in.
 fn with_switch(
     tree: &Tree,
     mut texts: Vec<(String, String)>,
     scheme: &Scheme,
 ) -> Result<Vec<(String, String)>, String> {
-    const ROOT: &str = "src/lib.rs";
-    let path = tree.root.join(ROOT);
-    let root = fs::read_to_string(&path).map_err(fault(&path))?;
     let units = scheme.unit.values().max().map_or(1, |last| last + 1);
-    texts.push((ROOT.to_owned(), format!("{root}\npub mod mutant;\n")));
-    texts.push(("src/mutant.rs".to_owned(), switch::module(units)));
+    for (root, line) in [(CORE, "pub mod mutant;"), (RECORD, "use wildpoint_core::mutant;")] {
+        let path = tree.root.join(root);
+        let text = fs::read_to_string(&path).map_err(fault(&path))?;
+        texts.push((root.to_owned(), format!("{text}\n{line}\n")));
+    }
+    texts.push(("crates/core/src/mutant.rs".to_owned(), switch::module(units)));
     Ok(texts)
 }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::outcome::Outcome;
+use crate::plan::in_crate;
 
 /// The columns, with the outcomes they count.
 const COLUMNS: &[(&str, &[Outcome])] = &[
@@ -13,10 +14,11 @@ const COLUMNS: &[(&str, &[Outcome])] = &[
     ("survived", &[Outcome::Survived]),
 ];
 
-/// The folder a file is counted in: `method` for `src/method.rs` and all below `src/method`.
+/// The folder a file is counted in: `method` for `crates/core/src/method.rs` and all below
+/// `crates/core/src/method`.
 #[must_use]
 pub fn folder(file: &str) -> &str {
-    file.trim_start_matches("src/").split(['/', '.']).next().unwrap_or("")
+    in_crate(file).split(['/', '.']).next().unwrap_or("")
 }
 
 /// The table, in Markdown; `listed` of a mutant says that it survives with a reason.
@@ -51,9 +53,9 @@ mod tests {
     #[test]
     fn every_mutant_is_counted_in_its_folder_and_together() {
         let rows = [
-            ("src/method.rs", Some(Outcome::Killed), false),
+            ("crates/core/src/method.rs", Some(Outcome::Killed), false),
             ("src/method/window/sorted.rs", Some(Outcome::Survived), true),
-            ("src/repair.rs", None, false),
+            ("crates/core/src/repair.rs", None, false),
         ];
         let table = table(rows.into_iter());
         assert!(table.contains("| method | 2 | 0 | 1 | 0 | 0 | 1 | 1 | 0 |\n"), "{table}");

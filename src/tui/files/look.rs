@@ -7,7 +7,7 @@ use super::is_session;
 use crate::error::Result;
 use crate::session;
 use crate::stop::Stop;
-use crate::track::{ColumnKind, LoadOptions, Preview, Series, Source, Track, Wanted, printable};
+use crate::track::{ColumnKind, LoadOptions, Preview, Source, Track, Wanted, printable};
 
 /// How much of a record is read.
 const MOST: u64 = 1 << 20;
@@ -114,7 +114,7 @@ fn with_unit(channel: &crate::track::Channel) -> String {
 }
 
 fn steps(track: &Track, channel: &crate::track::Channel) -> String {
-    let series = Series::of(channel, &track.time);
+    let series = channel.series(&track.time);
     let lost = (1..series.len()).map(|i| series.lost_before(i)).fold(0, usize::saturating_add);
     let interval = if series.interval.is_finite() {
         format!("step {} s", crate::report::short(series.interval))

@@ -31,11 +31,8 @@ pub(super) fn settings_to_all(model: &mut Model) -> Vec<Effect> {
     let others = model.session.plans.iter().enumerate().filter(|(plan, _)| *plan != shown);
     let (mut edits, mut without_rate) = (Vec::new(), Vec::new());
     for (plan, other) in others {
-        let after = Setup {
-            rate: other.setup.rate.clone(),
-            preparation: other.setup.preparation.clone(),
-            ..source.clone()
-        };
+        let after =
+            Setup { rate: other.setup.rate.clone(), preparation: other.setup.preparation.clone(), ..source.clone() };
         if source.method.about().needs_rate && after.rate.is_none() {
             without_rate.push(printable(&other.channel));
         }

@@ -52,7 +52,8 @@ fn take_suggestions(model: &mut Model) -> Vec<Effect> {
 fn switch_all(model: &mut Model) -> Vec<Effect> {
     let mut preparation = model.plan().setup.preparation.clone();
     if preparation.checks.is_empty() {
-        let words = format!("no check yet: :check makes one, {} those of the record", model.key(Action::SuggestedChecks));
+        let words =
+            format!("no check yet: :check makes one, {} those of the record", model.key(Action::SuggestedChecks));
         model.say(Tone::Warning, words);
         return Vec::new();
     }

@@ -1,0 +1,8 @@
+//! wildpoint-record: tracking records in files, and the sessions that say what is done to them.
+//!
+//! The modules are layers: each imports only from those listed before it in `tests/layers.rs`.
+
+pub mod session;
+pub mod track;
+
+use wildpoint_core::{analysis, check, error, method, param, repair, review, stop};

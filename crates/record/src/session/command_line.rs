@@ -1,0 +1,183 @@
+//! The command that does without a screen what a session says.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use super::{DEFAULT_METHOD, Plan, Preparation, Preset, Session, Setup, suggested};
+use crate::param::Settings;
+use crate::repair;
+use crate::track::{LoadOptions, Source, Track, Worded};
+
+/// The command for a POSIX shell that writes to `output` what `session` gives: `wildpoint clean` with what differs
+/// from the preset in force. None where no `clean` says the same, and only the saved session does: with decisions,
+/// with channels that are set up differently, for the built-in record, or when loading takes an option that only
+/// sessions have.
+#[must_use]
+pub fn clean_command(session: &Session, track: &Track, output: &Path) -> Option<String> {
+    let first = session.plans.first()?;
+    let like_first = |p: &Plan| p.setup.clone().prepared(&first.setup.preparation) == first.setup;
+    let alike = session.plans.iter().all(|p| p.decisions.is_empty() && like_first(p));
+    let Source::File(record) = &session.data.source else { return None };
+    if !alike {
+        return None;
+    }
+    let mut line = format!("wildpoint clean {}", path_quoted(record)?);
+    loading(&mut line, &session.data.options)?;
+    for Plan { channel, .. } in &session.plans {
+        option(&mut line, "channel", channel);
+    }
+    let preset = judging(&mut line, &first.setup);
+    preparing(&mut line, session, track, preset)?;
+    let _ = write!(line, " -o {}", path_quoted(output)?);
+    Some(line)
+}
+
+/// The command that writes to `output` what the session file `session` gives; none for names that are no UTF-8.
+#[must_use]
+pub fn replay_command(session: &Path, output: &Path) -> Option<String> {
+    Some(format!("wildpoint replay {} -o {}", path_quoted(session)?, path_quoted(output)?))
+}
+
+/// The options of loading; none when there is one that the command line cannot say.
+fn loading(line: &mut String, options: &LoadOptions) -> Option<()> {
+    let only_in_sessions =
+        options.decimal_comma == Some(false) || options.header == Some(true) || options.quotes == Some(true);
+    if only_in_sessions {
+        return None;
+    }
+    for (name, value) in [("time", &options.time), ("track", &options.track), ("truth", &options.truth)] {
+        if let Some(value) = value {
+            option(line, name, value);
+        }
+    }
+    options.missing.iter().for_each(|text| option(line, "missing", text));
+    let words = [
+        ("delimiter", options.delimiter.map(Worded::word)),
+        ("encoding", options.encoding.map(Worded::word)),
+        ("time-unit", options.time_unit.map(Worded::word)),
+    ];
+    for (name, word) in words.into_iter().filter_map(|(name, word)| Some((name, word?))) {
+        option(line, name, word?);
+    }
+    let switches = [
+        ("decimal-comma", options.decimal_comma == Some(true)),
+        ("no-header", options.header == Some(false)),
+        ("no-quotes", options.quotes == Some(false)),
+    ];
+    for (name, _) in switches.into_iter().filter(|(_, on)| *on) {
+        let _ = write!(line, " --{name}");
+    }
+    if let Some(day_first) = options.day_first {
+        option(line, "dates", if day_first { "day-first" } else { "month-first" });
+    }
+    Some(())
+}
+
+/// Method and repair, with the preset that leaves least to say.
+fn judging(line: &mut String, setup: &Setup) -> Preset {
+    let differing = |preset: Preset| differences(&setup.settings, &preset.settings(setup.method));
+    let (default, paper) = (differing(Preset::Default), differing(Preset::Paper));
+    if setup.method.about().id != DEFAULT_METHOD {
+        option(line, "method", setup.method.about().id);
+    }
+    let (preset, least) = if paper.len() < default.len() {
+        option(line, "preset", "paper");
+        (Preset::Paper, paper)
+    } else {
+        (Preset::Default, default)
+    };
+    if let Some(rate) = &setup.rate {
+        option(line, "rate", rate);
+    }
+    least.iter().for_each(|pair| option(line, "set", pair));
+    let of_repair = differences(&setup.repair, &Settings::defaults(repair::PARAMS));
+    for pair in &of_repair {
+        match pair.strip_prefix(repair::METHOD.key).and_then(|rest| rest.strip_prefix('=')) {
+            Some(id) => option(line, "repair", id),
+            None => option(line, "set", pair),
+        }
+    }
+    preset
+}
+
+/// What is done with the channels before: nothing need be said of what `clean` does by itself. None where it is not the
+/// same for all channels, or names channels in a way that the command line cannot.
+fn preparing(line: &mut String, session: &Session, track: &Track, preset: Preset) -> Option<()> {
+    let by_itself = |plan: &Plan| match (preset, track.channel(&plan.channel)) {
+        (Preset::Default, Some(channel)) => suggested(channel),
+        _ => Preparation::default(),
+    };
+    // Without decisions there are none to exclude.
+    let done = |plan: &Plan| Preparation { exclude_decided: false, ..plan.setup.preparation.clone() };
+    let all: Vec<(Preparation, Preparation)> = session.plans.iter().map(|p| (done(p), by_itself(p))).collect();
+    if all.iter().any(|(done, own)| done.checks != own.checks) {
+        let checks = all.first().map(|(done, _)| done.checks.as_slice()).unwrap_or_default();
+        let sayable = |name: &String| !name.contains([',', '=']);
+        let plain = checks.iter().all(|c| c.on && c.channels.iter().all(sayable));
+        if !plain || all.iter().any(|(done, _)| done.checks != checks) {
+            return None;
+        }
+        if checks.is_empty() {
+            option(line, "check", "none");
+        }
+        checks.iter().for_each(|check| option(line, "check", &check.to_string()));
+    }
+    if all.iter().any(|(done, own)| done.period != own.period) {
+        let period = |done: &Preparation| done.period.map_or("off".to_owned(), |p| format!("{p:?}"));
+        let first = all.first().map(|(done, _)| period(done))?;
+        if all.iter().any(|(done, _)| period(done) != first) {
+            return None;
+        }
+        option(line, "period", &first);
+    }
+    Some(())
+}
+
+/// `key=value` for each value that is another one.
+fn differences(settings: &Settings, from: &Settings) -> Vec<String> {
+    let other = settings.iter().zip(from.iter()).filter(|((_, a), (_, b))| a != b);
+    other.map(|((param, value), _)| format!("{}={value}", param.key)).collect()
+}
+
+fn option(line: &mut String, name: &str, value: &str) {
+    // A value that begins like an option is told from one by the sign before it.
+    let sign = if value.starts_with('-') { '=' } else { ' ' };
+    let _ = write!(line, " --{name}{sign}{}", quoted(value));
+}
+
+/// A path as a word of the shell; none when it is no UTF-8, which no text can say.
+fn path_quoted(path: &Path) -> Option<String> {
+    let text = path.to_str()?;
+    Some(if text.starts_with('-') { quoted(&format!("./{text}")) } else { quoted(text) })
+}
+
+/// A text as one word of a POSIX shell.
+#[must_use]
+pub fn quoted(text: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_./:=,+@%-".contains(c);
+    if !text.is_empty() && text.chars().all(plain) {
+        return text.to_owned();
+    }
+    format!("'{}'", text.replace('\'', "'\\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_of_the_shell_stay_one_word() {
+        for (text, word) in [
+            ("alt_m", "alt_m"),
+            ("", "''"),
+            ("speed [m/s]", "'speed [m/s]'"),
+            ("it's $HOME", "'it'\\''s $HOME'"),
+            ("高度", "'高度'"),
+            ("~/a", "'~/a'"),
+            ("#3", "'#3'"),
+        ] {
+            assert_eq!(quoted(text), word);
+        }
+        assert_eq!(path_quoted(Path::new("-rf")).as_deref(), Some("./-rf"));
+    }
+}

@@ -1,0 +1,392 @@
+//! A tracking record: times, channels, and what the loader understood of the file they came from.
+//!
+//! A [`Track`] keeps numbers only. Text of the file (a time as it was written, a cell byte for byte) is read again
+//! from the [`Source`] when an output needs it, through the same tokeniser, so that memory holds a record once.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+mod axis;
+mod body;
+mod built_in;
+mod calendar;
+mod cells;
+mod checks;
+mod chunk;
+mod feed;
+mod head;
+mod inert;
+mod load;
+mod names;
+mod notes;
+mod number;
+mod options;
+mod order;
+mod outputs;
+mod preview;
+mod printable;
+mod quick;
+mod rewrite;
+mod roles;
+mod rows;
+mod samples;
+mod shape;
+mod sniff;
+mod stamp;
+mod streamed;
+mod targets;
+mod text;
+mod timing;
+mod tokens;
+mod told;
+mod wanted;
+mod waves;
+mod widen;
+
+pub use cells::Cells;
+pub use checks::RowChecks;
+pub use inert::inert;
+pub use load::{load, load_while};
+pub use names::is_id;
+pub use number::{Cell, Reading, number_text, without_signed_zero};
+pub use options::LoadOptions;
+#[cfg(any(test, feature = "faults"))]
+pub use outputs::faults;
+pub use outputs::{Outputs, take_unfinished_away};
+pub use preview::Preview;
+pub use printable::{is_hidden, printable, printable_json, printable_lines};
+pub use rewrite::{CellChange, Changes, NewRow, rewrite};
+pub use rows::for_each_row;
+pub use samples::Samples;
+pub use targets::Target;
+pub use told::{TimeUnit, Worded};
+pub use wanted::Wanted;
+pub use widen::{NewColumn, widen};
+pub use wildpoint_core::series::{Series, lost_samples};
+
+/// Where the bytes of a record come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Source {
+    /// A file.
+    File(PathBuf),
+    /// Bytes that the program makes itself, under a name like `wildpoint:demo`.
+    BuiltIn {
+        /// The name that a session file gives as its data.
+        name: &'static str,
+        /// The bytes, in the form of a CSV file.
+        bytes: Arc<[u8]>,
+    },
+}
+
+/// A record as it was loaded.
+#[derive(Debug, Clone)]
+pub struct Track {
+    /// Where it came from.
+    pub source: Source,
+    /// SHA-256 of the bytes of the source as they are stored (compressed, if it is), in lower-case hexadecimal.
+    pub sha256: String,
+    /// How the text is laid out.
+    pub dialect: Dialect,
+    /// Data rows, whatever they hold.
+    pub rows: usize,
+    /// Every column of the file, in order.
+    pub columns: Vec<Column>,
+    /// The time of each row.
+    pub time: TimeAxis,
+    /// The numeric columns that were loaded, in the order of the file (or of the user's list).
+    pub channels: Vec<Channel>,
+    /// The truth column, where there is one: true marks a real outlier.
+    pub truth: Option<Vec<bool>>,
+    /// True when the user named the truth column, false when it was recognised.
+    pub truth_told: bool,
+    /// What could not be used, with line numbers.
+    pub faults: Faults,
+    /// What the user should know before trusting the record, in plain words.
+    pub notes: Vec<String>,
+}
+
+/// How a text file lays out its cells.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Dialect {
+    /// What stands between two cells.
+    pub delimiter: Delimiter,
+    /// The quote character, where cells may be quoted.
+    pub quote: Option<u8>,
+    /// True when `1,5` means one and a half.
+    pub decimal_comma: bool,
+    /// How the bytes encode text.
+    pub encoding: Encoding,
+    /// True when the bytes are gzipped.
+    pub gzip: bool,
+    /// True when the first line that is not a comment names the columns.
+    pub header: bool,
+    /// True when a line of units follows the header.
+    pub units_row: bool,
+    /// Cells that mean "no value", besides the empty cell and the usual markers (NaN, NA, N/A, null, none, -, --).
+    pub missing: Vec<String>,
+    /// Lines before the first data row that are neither comments nor blank: titles, header, units.
+    pub preamble: usize,
+}
+
+/// What stands between two cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Delimiter {
+    /// One byte: comma, semicolon, tab or pipe.
+    Byte(u8),
+    /// A run of blanks and tabs.
+    Blanks,
+}
+
+/// How the bytes of a file encode text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Encoding {
+    /// UTF-8, of which ASCII is a part; `bom` when it starts with a byte order mark.
+    Utf8 {
+        /// True when the file starts with a byte order mark.
+        bom: bool,
+    },
+    /// UTF-16, with its byte order mark.
+    Utf16 {
+        /// True for big-endian.
+        big_endian: bool,
+    },
+    /// Bytes above 127 that are not UTF-8: read as Windows-1252, of which Latin-1 is a part.
+    Latin1,
+}
+
+/// A column of the file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its name as it is in the header (made unique), or `column_3` where there is none.
+    pub name: String,
+    /// Its unit, as far as name or units row tell; empty when they do not.
+    pub unit: String,
+    /// What the loader takes it for.
+    pub kind: ColumnKind,
+    /// How many cells hold no value.
+    pub missing: usize,
+}
+
+/// What the loader takes a column for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColumnKind {
+    /// The time of the row.
+    Time,
+    /// Numbers.
+    Number,
+    /// 0 and 1, where 1 marks a real outlier.
+    Truth,
+    /// The id of the track that the row belongs to.
+    Track,
+    /// Something else, kept in the output and otherwise left alone.
+    Text,
+    /// No cell holds a value.
+    Empty,
+}
+
+impl ColumnKind {
+    /// Its word for people.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Time => "time",
+            Self::Number => "number",
+            Self::Truth => "truth",
+            Self::Track => "track",
+            Self::Text => "text",
+            Self::Empty => "empty",
+        }
+    }
+}
+
+/// One measured quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Channel {
+    /// Name of its column.
+    pub name: String,
+    /// Unit, or empty.
+    pub unit: String,
+    /// Index of its column in [`Track::columns`].
+    pub column: usize,
+    /// Its target, in a table of several tracks; none where all rows are one track.
+    pub target: Option<Target>,
+    /// One value per row (of its target, where it has one); NaN where there is none.
+    pub values: Vec<f64>,
+}
+
+/// The times of a record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TimeAxis {
+    /// Name of the column, or `sample` for the sample number.
+    pub name: String,
+    /// Index of the column; none for the sample number.
+    pub column: Option<usize>,
+    /// Index of the column of the date, where date and time of day stand apart; `column` is then the time of day.
+    pub date_column: Option<usize>,
+    /// How the file writes times.
+    pub format: TimeFormat,
+    /// The time that is 0 in [`TimeAxis::seconds`], in nanoseconds: since 1970 for calendar formats, since the
+    /// file's own zero for others.
+    pub origin_ns: i128,
+    /// One time per row in seconds after the origin, strictly increasing (in a table of several tracks: over the rows
+    /// of each); NaN where the row has no usable time (none, unreadable, repeated, or before an earlier row).
+    pub seconds: Vec<f64>,
+}
+
+/// How a file writes times.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum TimeFormat {
+    /// No time column: the row number, counted from 0 at one a second.
+    SampleNumber,
+    /// A number of seconds from a zero of the file's own.
+    Seconds,
+    /// A number from a zero of the file's own, in units of so many nanoseconds (milliseconds, days, …).
+    Elapsed {
+        /// Nanoseconds in one unit.
+        unit_ns: i64,
+    },
+    /// A number since 1970, in units of so many nanoseconds (1 000 000 000, 1 000 000, 1 000 or 1).
+    Epoch {
+        /// Nanoseconds in one unit.
+        unit_ns: i64,
+    },
+    /// A date and time in ISO order: `2019-11-11T17:57:05Z`, `2019-01-01 00:00`.
+    Iso,
+    /// A date with the year last, and perhaps a time: `3/23/2005 17:00`, `23.03.2005`.
+    YearLast {
+        /// True when the day stands before the month.
+        day_first: bool,
+    },
+    /// A time of day: `17:57:05.25`. A step back of more than half a day is the next day.
+    Clock,
+}
+
+/// Rows and cells that could not be used, counted, the first few with their line numbers.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Faults {
+    /// Rows whose time is the same as that of an earlier row.
+    pub repeated_times: Fault,
+    /// Rows whose time lies before that of an earlier row.
+    pub backward_times: Fault,
+    /// Rows without a readable time.
+    pub unreadable_times: Fault,
+    /// Cells of numeric columns that hold something else than a number or a missing marker.
+    pub unreadable_cells: Fault,
+    /// Rows with fewer or more cells than the header (one empty cell more, made by a delimiter at the end of every
+    /// row, is none).
+    pub ragged_rows: Fault,
+    /// Numbers too large for a double, taken as missing.
+    pub infinite_cells: Fault,
+}
+
+impl Faults {
+    /// The kinds of which there are any.
+    pub fn kinds(&self) -> impl Iterator<Item = (FaultKind, &Fault)> {
+        let faults = [
+            &self.repeated_times,
+            &self.backward_times,
+            &self.unreadable_times,
+            &self.unreadable_cells,
+            &self.ragged_rows,
+            &self.infinite_cells,
+        ];
+        FAULT_KINDS.into_iter().zip(faults).filter(|(_, fault)| fault.count > 0)
+    }
+}
+
+/// A kind of fault, in words.
+#[derive(Debug, Clone, Copy)]
+pub struct FaultKind {
+    /// Its name in JSON.
+    pub name: &'static str,
+    one: &'static str,
+    many: &'static str,
+}
+
+/// In the order of the fields of [`Faults`].
+const FAULT_KINDS: [FaultKind; 6] = [
+    FaultKind { name: "repeated times", one: "repeated time", many: "repeated times" },
+    FaultKind { name: "backward times", one: "time that goes back", many: "times that go back" },
+    FaultKind { name: "unreadable times", one: "unreadable time", many: "unreadable times" },
+    FaultKind { name: "unreadable cells", one: "unreadable cell", many: "unreadable cells" },
+    FaultKind {
+        name: "rows with fewer or more cells than columns",
+        one: "row with fewer or more cells than columns",
+        many: "rows with fewer or more cells than columns",
+    },
+    FaultKind {
+        name: "numbers too large for a double",
+        one: "number too large for a double",
+        many: "numbers too large for a double",
+    },
+];
+
+impl FaultKind {
+    /// What goes with a count: `repeated time` with 1, else `repeated times`.
+    #[must_use]
+    pub fn words(self, count: usize) -> &'static str {
+        if count == 1 { self.one } else { self.many }
+    }
+}
+
+/// One kind of fault.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Fault {
+    /// How many.
+    pub count: usize,
+    /// The first few: line in the file (from 1) and what stands there.
+    pub first: Vec<(u64, String)>,
+}
+
+impl Fault {
+    /// How many faults of a kind are kept with their line.
+    pub const KEPT: usize = 5;
+
+    /// Counts one more.
+    pub fn add(&mut self, line: u64, what: &str) {
+        self.count += 1;
+        if self.first.len() < Self::KEPT {
+            self.first.push((line, what.chars().take(60).collect()));
+        }
+    }
+}
+
+impl TimeFormat {
+    /// How times are written, in words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self {
+            Self::SampleNumber => "sample number".into(),
+            Self::Seconds => "seconds".into(),
+            Self::Epoch { unit_ns } => format!("{} since 1970", TimeUnit { ns: *unit_ns }.name()),
+            Self::Elapsed { unit_ns } => TimeUnit { ns: *unit_ns }.name(),
+            Self::YearLast { day_first: true } => "day/month/year".into(),
+            Self::YearLast { day_first: false } => "month/day/year".into(),
+            Self::Iso => "ISO 8601".into(),
+            Self::Clock => "time of day".into(),
+        }
+    }
+}
+
+impl Track {
+    /// The truth about a channel: the truth column that the user named; one that was recognised only where its name
+    /// fits, so that `vx_truth_outlier` is about `vx_mps` and not about `alt_m`.
+    #[must_use]
+    pub fn truth_for(&self, channel: &str) -> Option<&[bool]> {
+        let truth = self.truth.as_deref()?;
+        let mut columns = self.columns.iter().filter(|c| c.kind == ColumnKind::Truth);
+        let about = match (&self.truth_told, columns.next()) {
+            (false, Some(column)) => column.name.split("truth").next().unwrap_or("").trim_end_matches('_'),
+            _ => "",
+        };
+        let is_about = |name: &str| name.starts_with(about);
+        let numbers = self.columns.iter().filter(|c| c.kind == ColumnKind::Number || c.kind == ColumnKind::Text);
+        (is_about(channel) || !numbers.into_iter().any(|c| is_about(&c.name))).then_some(truth)
+    }
+
+    /// The channel of this name.
+    #[must_use]
+    pub fn channel(&self, name: &str) -> Option<&Channel> {
+        self.channels.iter().find(|c| c.name == name)
+    }
+}

@@ -1,0 +1,300 @@
+//! What column names tell: units, times, truth; and finding a column by what a user typed.
+
+use std::collections::HashSet;
+
+use crate::error::{Error, Result, nearest};
+
+/// Ends of names that are units, and the units as people write them.
+const UNITS: [(&str, &str); 56] = [
+    ("m", "m"),
+    ("km", "km"),
+    ("cm", "cm"),
+    ("mm", "mm"),
+    ("ft", "ft"),
+    ("nmi", "nmi"),
+    ("mi", "mi"),
+    ("s", "s"),
+    ("sec", "s"),
+    ("secs", "s"),
+    ("seconds", "s"),
+    ("ms", "ms"),
+    ("millis", "ms"),
+    ("milliseconds", "ms"),
+    ("us", "us"),
+    ("micros", "us"),
+    ("microseconds", "us"),
+    ("ns", "ns"),
+    ("nanos", "ns"),
+    ("nanoseconds", "ns"),
+    ("min", "min"),
+    ("minutes", "min"),
+    ("h", "h"),
+    ("hours", "h"),
+    ("days", "d"),
+    ("mjd", "d"),
+    ("mps", "m/s"),
+    ("mps2", "m/s2"),
+    ("kmh", "km/h"),
+    ("kmps", "km/s"),
+    ("fps", "ft/s"),
+    ("fpm", "ft/min"),
+    ("kt", "kt"),
+    ("kts", "kt"),
+    ("mph", "mph"),
+    ("deg", "deg"),
+    ("rad", "rad"),
+    ("dps", "deg/s"),
+    ("pa", "Pa"),
+    ("hpa", "hPa"),
+    ("kpa", "kPa"),
+    ("mbar", "mbar"),
+    ("c", "degC"),
+    ("degc", "degC"),
+    ("k", "K"),
+    ("v", "V"),
+    ("mv", "mV"),
+    ("hz", "Hz"),
+    ("khz", "kHz"),
+    ("mhz", "MHz"),
+    ("db", "dB"),
+    ("dbhz", "dB-Hz"),
+    ("ntu", "NTU"),
+    ("mgl", "mg/L"),
+    ("uscm", "uS/cm"),
+    ("psu", "psu"),
+];
+
+fn known_unit(text: &str) -> Option<&'static str> {
+    UNITS.iter().find(|(end, _)| text.eq_ignore_ascii_case(end)).map(|(_, unit)| *unit)
+}
+
+/// The unit that a name ends with (`alt_ft`, `east(m)`, `salt [psu]`); empty where it does not.
+pub(crate) fn unit_of(name: &str) -> String {
+    let name = name.trim();
+    let bracketed =
+        |open, close| name.strip_suffix(close).and_then(|n: &str| n.rsplit_once(open)).map(|(_, unit)| unit.trim());
+    if let Some(unit) = bracketed('[', ']') {
+        return unit.to_owned();
+    }
+    if let Some(unit) = bracketed('(', ')') {
+        return known_unit(unit).or(unit.contains('/').then_some(unit)).unwrap_or_default().to_owned();
+    }
+    // A name that is nothing but a unit (`v`, `h`) is a quantity.
+    let end = name.rsplit_once(['_', ' ']).map(|(_, end)| end).or_else(|| words(name).get(1..)?.last().copied());
+    // `igniter_c` counts igniters.
+    let of_temperature = name.to_lowercase().contains("temp");
+    let end = end.filter(|e| of_temperature || !(e.eq_ignore_ascii_case("c") || e.eq_ignore_ascii_case("k")));
+    end.and_then(known_unit).unwrap_or_default().to_owned()
+}
+
+/// The words of a name: parts between punctuation, and `camelCase` parts.
+pub(crate) fn words(name: &str) -> Vec<&str> {
+    let mut words = Vec::new();
+    for part in name.split(|c: char| !c.is_alphanumeric()) {
+        let mut start = 0;
+        let mut before = ' ';
+        for (at, c) in part.char_indices() {
+            if c.is_uppercase() && before.is_lowercase() {
+                words.push(&part[start..at]);
+                start = at;
+            }
+            before = c;
+        }
+        words.push(&part[start..]);
+    }
+    words.retain(|w| !w.is_empty());
+    words
+}
+
+/// Words in the names of columns that tell tracks apart.
+const IDS: [&str; 17] = [
+    "id", "flight", "station", "svid", "sv", "prn", "sat", "beacon", "bird", "callsign", "icao24", "series", "sensor",
+    "target", "track", "object", "channel",
+];
+
+/// True for a word that tells tracks apart.
+pub(crate) fn is_id_word(word: &str) -> bool {
+    IDS.iter().any(|id| word.eq_ignore_ascii_case(id))
+}
+
+/// True for a name that says "id" and nothing else: `flight_id`, `SVID`, `sensor no`, but not `target_range_m`.
+#[must_use]
+pub fn is_id(name: &str) -> bool {
+    let counts = |word: &str| ["no", "nr", "number"].iter().any(|n| word.eq_ignore_ascii_case(n));
+    let words = words(name);
+    words.iter().any(|word| is_id_word(word)) && words.iter().all(|word| is_id_word(word) || counts(word))
+}
+
+/// How much a name says "time": 4 certainly, 0 not at all.
+pub(crate) fn time_rank(name: &str) -> u8 {
+    let words: Vec<String> = words(name).iter().map(|w| w.to_lowercase()).collect();
+    let Some(first) = words.first() else { return 0 };
+    let is_time =
+        |w: &str| matches!(w, "time" | "times" | "timestamp" | "timestamps" | "datetime" | "utc" | "时间" | "时刻");
+    let without_unit = match words.split_last() {
+        Some((last, rest)) if !rest.is_empty() && known_unit(last).is_some() => rest,
+        _ => &words[..],
+    };
+    let last = without_unit.last().unwrap_or(first);
+    if is_time(first) {
+        4
+    } else if is_time(last) || matches!(first.as_str(), "epoch" | "date" | "unix" | "unixtime") || last == "epoch" {
+        3
+    } else if without_unit.len() == 1 && matches!(first.as_str(), "t" | "tow" | "sec" | "secs" | "seconds" | "elapsed")
+    {
+        2
+    } else {
+        0
+    }
+}
+
+/// True for `truth`, `truth_outlier`, `do_truth`, ….
+pub(crate) fn is_truth(name: &str) -> bool {
+    words(name).iter().any(|w| w.eq_ignore_ascii_case("truth"))
+}
+
+/// Nanoseconds in one unit of time of this name.
+pub(crate) fn time_unit_ns(unit: &str) -> Option<i64> {
+    Some(match known_unit(unit).unwrap_or(unit) {
+        "ns" => 1,
+        "us" => 1_000,
+        "ms" => 1_000_000,
+        "s" => 1_000_000_000,
+        "min" => 60_000_000_000,
+        "h" => 3_600_000_000_000,
+        "d" => 86_400_000_000_000,
+        _ => return None,
+    })
+}
+
+/// The names made unique (`altitude`, `altitude_2`), and the nameless named `column_3`.
+pub(crate) fn unique(names: Vec<String>) -> Vec<String> {
+    let mut taken: HashSet<String> = names.iter().cloned().collect();
+    let mut seen = HashSet::new();
+    let fresh = |stem: &str, first: usize, taken: &HashSet<String>| {
+        (first..).map(|n| format!("{stem}_{n}")).find(|n| !taken.contains(n)).unwrap_or_default()
+    };
+    let mut unique = Vec::with_capacity(names.len());
+    for (index, name) in names.into_iter().enumerate() {
+        let name = if name.is_empty() {
+            fresh("column", index + 1, &taken)
+        } else if seen.contains(&name) {
+            fresh(&name, 2, &taken)
+        } else {
+            name
+        };
+        taken.insert(name.clone());
+        seen.insert(name.clone());
+        unique.push(name);
+    }
+    unique
+}
+
+/// Where the column stands that `wanted` means: its name, or `#` and its number from 1.
+pub(crate) fn place<'a>(mut names: impl Iterator<Item = &'a str> + Clone, wanted: &str) -> Option<usize> {
+    let count = names.clone().count();
+    names.position(|n| n == wanted).or_else(|| numbered(wanted)?.checked_sub(1).filter(|index| *index < count))
+}
+
+fn numbered(wanted: &str) -> Option<usize> {
+    wanted.strip_prefix('#')?.parse().ok()
+}
+
+/// The column that a user named: by its name, or as `#3` counted from 1.
+///
+/// # Errors
+/// [`Error::Usage`] with the names there are and the nearest.
+pub(crate) fn find<'a>(names: impl Iterator<Item = &'a str> + Clone, wanted: &str) -> Result<usize> {
+    if let Some(index) = place(names.clone(), wanted) {
+        return Ok(index);
+    }
+    let count = names.clone().count();
+    if numbered(wanted).is_some() {
+        return Err(Error::usage(format!("there is no column {wanted}"), format!("columns are #1 to #{count}")));
+    }
+    let mut help = match nearest(wanted, names.clone()) {
+        Some(near) => format!("did you mean `{}`? ", super::printable(near)),
+        None => String::new(),
+    };
+    const SHOWN: usize = 30;
+    let shown: Vec<String> = names.take(SHOWN).map(super::printable).collect();
+    help.push_str(&format!("the columns are {}", shown.join(", ")));
+    if count > SHOWN {
+        help.push_str(&format!(" and {} more", count - SHOWN));
+    }
+    Err(Error::usage(format!("there is no column `{}`", super::printable(wanted)), help))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_a_place_and_a_name_goes_before_it() {
+        let names = ["t", "#1", "x"].into_iter();
+        assert_eq!(place(names.clone(), "#1"), Some(1));
+        assert_eq!(place(names.clone(), "#3"), Some(2));
+        for none in ["#0", "#4", "y", "#", "#x"] {
+            assert_eq!(place(names.clone(), none), None, "{none}");
+        }
+    }
+
+    #[test]
+    fn units_are_the_ends_of_names() {
+        for (name, unit) in [
+            ("alt_ft", "ft"),
+            ("vx_mps", "m/s"),
+            ("_latitude(deg)", "deg"),
+            ("sandi.790.A.CTD [psu]", "psu"),
+            ("CO(GT)", ""),
+            ("temperature", ""),
+            ("speed (km/h)", "km/h"),
+            ("v", ""),
+            ("TimeNanos", "ns"),
+            ("ph", ""),
+            ("igniter_c", ""),
+            ("baro_temp_c", "degC"),
+        ] {
+            assert_eq!(unit_of(name), unit, "{name}");
+        }
+    }
+
+    #[test]
+    fn names_of_times_are_known() {
+        for (name, rank) in [
+            ("time", 4),
+            ("time_s", 4),
+            ("time PST", 4),
+            ("TimeNanos", 4),
+            ("timestamp", 4),
+            ("gps_time", 3),
+            ("date", 3),
+            ("epoch_ms", 3),
+            ("t", 2),
+            ("t_s", 2),
+            ("timer", 0),
+            ("altitude", 0),
+            ("ElapsedRealtimeMillis", 0),
+            ("", 0),
+        ] {
+            assert_eq!(time_rank(name), rank, "{name}");
+        }
+    }
+
+    #[test]
+    fn names_become_unique_without_taking_one_that_is_there() {
+        let names = ["a", "a", "a_2", "", "a"].map(String::from).to_vec();
+        assert_eq!(unique(names), ["a", "a_3", "a_2", "column_4", "a_4"]);
+    }
+
+    #[test]
+    fn columns_are_found_by_name_or_number() {
+        let names = ["time", "alt_m"];
+        assert_eq!(find(names.into_iter(), "alt_m").unwrap(), 1);
+        assert_eq!(find(names.into_iter(), "#2").unwrap(), 1);
+        let e = find(names.into_iter(), "alt").unwrap_err().to_string();
+        assert!(e.contains("no column `alt`") && e.contains("the columns are time, alt_m"), "{e}");
+        assert!(find(names.into_iter(), "tine").unwrap_err().to_string().contains("did you mean `time`"));
+        assert!(find(names.into_iter(), "#3").is_err() && find(names.into_iter(), "#0").is_err());
+    }
+}
