@@ -73,7 +73,7 @@ pub static COMMANDS: &[Command] = &[
     }),
     command("check", "ID[:KEY=VALUE,...]", "make a check before the method", checks::add),
     command("uncheck", "ID|all", "make a check no more", checks::take_away),
-    command("period", "P|off", "the period of a circular channel: 360, 24, 2pi", |m, a| checks::set_period(m, a)),
+    command("period", "P|off", "the period of a circular channel: 360, 24, 2pi", checks::set_period),
     command("position", "LAT,LON[,HEIGHT]", "channels that are one position, checked for its speed", checks::position),
     command("channel", "NAME", "show another channel", channel),
     command("goto", "TIME|#ROW|...", "put the cursor on a time or a row, or what / takes", |m, a| {

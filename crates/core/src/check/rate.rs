@@ -50,8 +50,8 @@ impl Check for Rate {
             let Some(limit) = limit else { continue };
             for island in islands(n, longest, |a, b| exceeds(rate(a, b), limit), stop)? {
                 let range = island.range;
-                let into = (range.start > 0).then(|| rate(range.start - 1, range.start)).unwrap_or(0.0);
-                let out = (range.end < n).then(|| rate(range.end - 1, range.end)).unwrap_or(0.0);
+                let into = if range.start > 0 { rate(range.start - 1, range.start) } else { 0.0 };
+                let out = if range.end < n { rate(range.end - 1, range.end) } else { 0.0 };
                 let found = into.max(out);
                 let verdict = if island.both_sides { beyond } else { Verdict::Suspect };
                 verdicts.resize(n, None);
