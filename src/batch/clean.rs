@@ -48,6 +48,7 @@ fn one(file: &Path, (shared, suggested): (&Shared, bool), setup: &Setup, target:
     }
     let track = load(&Source::File(file.to_path_buf()), &options)?;
     let mut session = Session::new(&track, shared.load.options(None), setup);
+    shared.prepare.prepare(&mut session, &track, shared.preset)?;
     // A rate channel that was loaded beside the named ones is not judged.
     if !shared.load.channel.is_empty() {
         session.plans.retain(|p| any(&track, &shared.load.channel, p) || !any(&track, &shared.rate, p));

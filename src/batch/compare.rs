@@ -33,6 +33,8 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
     let (track, index, note) = one_channel(&args.file, &args.load, args.rate.as_deref())?;
     let channel = &track.channels[index];
     let samples = Samples::of(channel, &track.time);
+    let preparation = args.prepare.of(&track, channel, args.preset)?;
+    let setups: Vec<Setup> = setups.into_iter().map(|setup| setup.prepared(&preparation)).collect();
     let judged =
         set::for_all(&setups, args.outputs.quiet || args.outputs.json, |setup| judge(&track, index, &samples, setup));
     let judged: Vec<(Row, Vec<Verdict>)> = judged.into_iter().collect::<Result<_>>()?;
@@ -40,7 +42,7 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
     let mut ballot = Ballot::new(samples.series(channel, &track.time).len());
     rows.iter().zip(&verdicts).try_for_each(|(row, verdict)| ballot.add(row.method, verdict, &Stop::never()))?;
     let consensus = match args.votes {
-        Some(votes) => Some(written(args, votes, &track, index, &samples, &ballot)?),
+        Some(votes) => Some(written(args, votes, &track, index, &samples, &ballot, &preparation)?),
         None => None,
     };
     let told = Told {

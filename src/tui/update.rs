@@ -11,6 +11,7 @@ use crate::error::Error;
 use crate::track::printable;
 
 mod channels;
+mod checks;
 mod command;
 mod command_line;
 mod compare;
@@ -127,7 +128,7 @@ fn no_action(model: &mut Model, key: KeyEvent, prefix: Option<char>) {
 type Part = fn(&mut Model, Action) -> Option<Vec<Effect>>;
 
 /// The parts that carry actions out. Each action is one part's; the others leave it.
-const PARTS: [Part; 11] = [
+const PARTS: [Part; 12] = [
     review::act,
     decide::act,
     tune::act,
@@ -137,6 +138,7 @@ const PARTS: [Part; 11] = [
     compare::act,
     consensus::act,
     channels::act,
+    checks::act,
     files::act,
     window,
 ];
@@ -329,7 +331,7 @@ pub(super) fn list_of(knob: Knob) -> Option<PickerKind> {
         Knob::Method => Some(PickerKind::Method),
         Knob::Rate => Some(PickerKind::Rate),
         Knob::Repair(p) if p.key == crate::repair::METHOD.key => Some(PickerKind::Repair),
-        Knob::Detection(_) | Knob::Repair(_) => None,
+        _ => None,
     }
 }
 

@@ -12,6 +12,8 @@
 //! 4. [`threshold`]: the multiple of it at which the residuals of this record end and wild points begin.
 //!
 //! Steps 2 to 4 run three times, each time without the samples found so far.
+//!
+//! Before that, [`repeated`], [`stuck`] and [`wrap`] say which checks and which period a record asks for.
 
 use rayon::prelude::*;
 
@@ -20,10 +22,13 @@ use crate::stop::{Stop, Stopped};
 
 mod background;
 mod coast;
-mod resolution;
+pub mod repeated;
 mod residual;
+mod resolution;
 mod stretches;
+pub mod stuck;
 mod threshold;
+pub mod wrap;
 
 use background::background;
 use coast::coast;

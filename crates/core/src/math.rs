@@ -1,5 +1,6 @@
 //! Numerical kernels on slices: no track, no parameters.
 
+pub mod circle;
 pub mod difference;
 pub mod extrapolate;
 pub mod extremes;

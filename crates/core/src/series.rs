@@ -85,6 +85,23 @@ impl<'a> Series<'a> {
         Series { rows, t: Cow::Borrowed(&self.t), y: Cow::Borrowed(&self.y), interval: self.interval }
     }
 
+    /// The samples at `positions` (ascending; none: all of them), with the values of `y`, one for each sample of this
+    /// series, where it is given. Samples that are left out count as missing.
+    #[must_use]
+    pub fn seen(&'a self, positions: Option<&[u32]>, y: Option<&'a [f64]>) -> Series<'a> {
+        let y = y.unwrap_or(&self.y);
+        let Some(positions) = positions else {
+            let rows = self.rows.as_ref().map(|rows| Cow::Borrowed(rows.as_ref()));
+            return Series { rows, t: Cow::Borrowed(&self.t), y: Cow::Borrowed(y), interval: self.interval };
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "the loader refuses files of 2^32 rows and more")]
+        let rows = positions.iter().map(|&p| self.row(p as usize) as u32).collect();
+        let t: Vec<f64> = positions.iter().map(|&p| self.t[p as usize]).collect();
+        let y = positions.iter().map(|&p| y[p as usize]).collect();
+        let interval = nominal_interval(&t);
+        Series { rows: Some(Cow::Owned(rows)), t: Cow::Owned(t), y: Cow::Owned(y), interval }
+    }
+
     /// How many samples are present.
     #[must_use]
     #[inline]
@@ -221,6 +238,19 @@ mod tests {
         let s = Series::new(&t, &y);
         assert_eq!((s.t.as_ref(), s.y.as_ref()), (&[0.0, 3.0, 4.0][..], &[5.0, 8.0, 9.0][..]));
         assert_eq!((s.row(1), s.position(3), s.position(2)), (3, Some(1), None));
+    }
+
+    #[test]
+    fn samples_that_are_left_out_are_missing_and_values_can_be_others() {
+        let t = [0.0, 1.0, 2.0, f64::NAN, 4.0, 5.0];
+        let y = [5.0, 6.0, 7.0, 7.5, 8.0, 9.0];
+        let whole = Series::new(&t, &y);
+        let part = whole.seen(Some(&[0, 1, 3]), None);
+        assert_eq!((part.t.as_ref(), part.y.as_ref()), (&[0.0, 1.0, 4.0][..], &[5.0, 6.0, 8.0][..]));
+        assert_eq!((part.row(2), part.position(2), part.interval), (4, None, 2.0));
+        let others = [1.0; 5];
+        let all = whole.seen(None, Some(&others));
+        assert_eq!((all.y.as_ref(), all.row(4), all.interval), (&others[..], 5, whole.interval));
     }
 
     #[test]

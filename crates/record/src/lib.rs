@@ -5,4 +5,4 @@
 pub mod session;
 pub mod track;
 
-use wildpoint_core::{analysis, error, method, param, repair, review, stop};
+use wildpoint_core::{analysis, check, error, method, param, repair, review, stop};

@@ -97,6 +97,9 @@ pub struct Counts {
     pub missing: usize,
     /// Outliers that hold.
     pub flagged: usize,
+    /// Those of them that a check failed.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub by_checks: usize,
     /// Outliers alone.
     pub isolated: usize,
     /// Runs of two and more.
@@ -115,6 +118,11 @@ pub struct Counts {
     pub decisions: usize,
     /// Decisions that the method contradicts.
     pub conflicts: usize,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+fn is_zero(n: &usize) -> bool {
+    *n == 0
 }
 
 impl Outcome {

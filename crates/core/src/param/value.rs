@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::Numbers;
+
 /// The value of one parameter. Prints in the form that `--set` and the session file read back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Value {
@@ -13,6 +15,8 @@ pub enum Value {
     Word(&'static str),
     /// Yes or no.
     Switch(bool),
+    /// A few numbers.
+    Numbers(Numbers),
 }
 
 /// The value of a parameter that is either a word or a number.
@@ -32,6 +36,7 @@ impl fmt::Display for Value {
             Self::Real(x) => write!(f, "{x:?}"),
             Self::Word(w) => f.write_str(w),
             Self::Switch(b) => write!(f, "{b}"),
+            Self::Numbers(list) => write!(f, "{list}"),
         }
     }
 }
