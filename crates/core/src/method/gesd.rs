@@ -7,7 +7,7 @@ use crate::math::moments::Moments;
 use crate::param::{Kind, Param, Settings, Step, Value, always};
 use crate::stop::{Stop, Stopped};
 
-/// The method `gesd` of section 2 of the methods page (beyond the documents; Rosner 1983).
+/// The method `gesd` of section 2 of `docs/methods.md` (beyond the documents; Rosner 1983).
 #[derive(Debug, Clone, Copy)]
 pub struct Gesd;
 

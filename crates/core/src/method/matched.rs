@@ -1,4 +1,4 @@
-//! Matched measurements: section 4 of the methods page, \[001\] eqs. (35)-(41).
+//! Matched measurements: section 4 of `docs/methods.md`, \[001\] eqs. (35)-(41).
 
 use std::ops::Range;
 

@@ -6,7 +6,7 @@ use crate::math::pieces;
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
-/// The method `odd-even` of section 2 of the methods page.
+/// The method `odd-even` of section 2 of `docs/methods.md`.
 #[derive(Debug, Clone, Copy)]
 pub struct OddEven;
 

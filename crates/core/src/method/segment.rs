@@ -16,8 +16,8 @@ pub struct Segment<'a> {
     pub y: &'a [f64],
     /// Nominal interval of the whole channel in seconds; NaN when the channel has one sample.
     pub interval: f64,
-    /// Noise scale by the setting `sigma`, at least [`Segment::floor`]; 0 when it counts as zero (section 1 of the
-    /// methods page), and for methods without that setting.
+    /// Noise scale by the setting `sigma`, at least [`Segment::floor`]; 0 when it counts as zero (section 1 of
+    /// `docs/methods.md`), and for methods without that setting.
     pub sigma: f64,
     /// Lower bound on any scale, by the setting `floor`; 0 when there is none.
     pub floor: f64,
