@@ -15,6 +15,7 @@ use crate::stop::{Stop, Stopped};
 
 mod gaps;
 mod outcome;
+mod serialize;
 
 use gaps::{GapPlaces, gaps_to_fill};
 pub use outcome::{Counts, Fill, Mark, Outcome, Place, Run};
@@ -39,6 +40,12 @@ pub struct Input<'a> {
     pub series: &'a Series<'a>,
     /// The channel that measures its rate.
     pub rate: Option<&'a Series<'a>>,
+}
+
+impl<'a> From<&'a Series<'a>> for Input<'a> {
+    fn from(series: &'a Series<'a>) -> Self {
+        Self { series, rate: None }
+    }
 }
 
 /// The rows of the record that the samples of a channel were taken from.

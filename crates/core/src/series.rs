@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::error::Error;
 use crate::interval::nominal_interval;
 
 /// Steps in one piece of parallel work.
@@ -58,6 +59,40 @@ impl<'a> Series<'a> {
         let y = rows.iter().map(|&i| y[i as usize]).collect();
         let interval = nominal_interval(&t);
         Self { rows: Some(Cow::Owned(rows)), t: Cow::Owned(t), y: Cow::Owned(y), interval }
+    }
+
+    /// [`Series::new`] of slices that nobody has checked.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] when there are not as many values as times, or when the times do not increase.
+    pub fn checked(t: &'a [f64], y: &'a [f64]) -> Result<Self, Error> {
+        if t.len() != y.len() {
+            let what = format!("{} times and {} values", t.len(), y.len());
+            return Err(Error::usage(what, "give one value for each time, NaN where there is none"));
+        }
+        if u32::try_from(t.len()).is_err() {
+            return Err(Error::usage(format!("{} samples", t.len()), "give fewer than 2^32 at a time"));
+        }
+        let mut last = f64::NEG_INFINITY;
+        for (index, &time) in t.iter().enumerate().filter(|(i, time)| time.is_finite() && y[*i].is_finite()) {
+            if time <= last {
+                let what = format!("the time at index {index}, {time}, does not lie after the one before it, {last}");
+                return Err(Error::usage(what, "sort the samples by time and leave repeated times out"));
+            }
+            last = time;
+        }
+        Ok(Self::new(t, y))
+    }
+
+    /// The time of each row, from the first to that of the last sample; NaN for rows without a sample.
+    #[must_use]
+    pub fn seconds_of_rows(&self) -> Cow<'_, [f64]> {
+        let Some(rows) = self.rows.as_deref() else { return Cow::Borrowed(&self.t) };
+        let mut seconds = vec![f64::NAN; rows.last().map_or(0, |last| *last as usize + 1)];
+        for (&row, &time) in rows.iter().zip(self.t.iter()) {
+            seconds[row as usize] = time;
+        }
+        Cow::Owned(seconds)
     }
 
     /// The same samples, owned; none when every row is present, in which case there is nothing to keep but the

@@ -29,7 +29,7 @@ pub fn detect(
         return Ok(detection);
     }
     let rate = rate_of(track, channel, setup)?;
-    Detection::of(Input { series: &series, rate: rate.as_ref() }, setup, stop)
+    Ok(Detection::of(Input { series: &series, rate: rate.as_ref() }, setup, stop)?)
 }
 
 /// The samples of the channel that measures the rate of `channel`, where the method of `setup` needs one.

@@ -26,5 +26,5 @@ pub fn sweep(
     let series = samples.series(channel, &track.time);
     let rate = rate_of(track, channel, setup)?;
     let input = Input { series: &series, rate: rate.as_ref() };
-    wildpoint_core::sweep::sweep(input, track.truth_for(&channel.name), setup, (param, values), stop)
+    Ok(wildpoint_core::sweep::sweep(input, track.truth_for(&channel.name), setup, (param, values), stop)?)
 }
