@@ -165,6 +165,13 @@ impl<'a> Series<'a> {
         self.t.partition_point(|x| *x < t)
     }
 
+    /// The longest step in seconds in which at most `max_gap` samples are lost; infinite for none.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+    pub fn longest_step(&self, max_gap: Option<usize>) -> f64 {
+        max_gap.map_or(f64::INFINITY, |most| (most as f64 + 1.5 - ROUNDING) * self.interval)
+    }
+
     /// Samples lost between the one at `position` and the one before it; 0 for the first.
     #[must_use]
     #[inline]
@@ -229,8 +236,10 @@ impl<'a> Series<'a> {
     }
 }
 
-/// Samples lost in a step of `dt` seconds at a nominal interval of `interval` seconds. The small constant keeps a
-/// tie a tie when the times of the file are rounded.
+/// Keeps a tie a tie when the times of a file are rounded, in nominal intervals.
+const ROUNDING: f64 = 1e-6;
+
+/// Samples lost in a step of `dt` seconds at a nominal interval of `interval` seconds.
 #[must_use]
 #[inline]
 pub fn lost_samples(dt: f64, interval: f64) -> usize {
@@ -238,7 +247,7 @@ pub fn lost_samples(dt: f64, interval: f64) -> usize {
     if dt < 1.49 * interval {
         return 0;
     }
-    let steps = dt / interval + 0.5 + 1e-6;
+    let steps = dt / interval + 0.5 + ROUNDING;
     // A cast from float rounds down, saturates, and takes NaN (fewer than two samples) to 0.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates as wanted")]
     let steps = steps as usize;
@@ -284,6 +293,18 @@ mod tests {
         assert_eq!(losses(0..t.len()), gaps);
         assert_eq!(losses(777..CHUNK + 1), [CHUNK - 1, CHUNK]);
         assert_eq!(s.segments(Some(5)).len(), gaps.len() + 1);
+    }
+
+    #[test]
+    fn the_longest_step_loses_no_more_than_it_may() {
+        let t = [0.0, 0.25, 0.5, 0.75];
+        let s = Series::new(&t, &t);
+        for most in [0, 1, 5, 1000] {
+            let longest = s.longest_step(Some(most));
+            assert_eq!(lost_samples(longest * (1.0 - 1e-9), s.interval), most);
+            assert_eq!(lost_samples(longest * (1.0 + 1e-9), s.interval), most + 1);
+        }
+        assert_eq!(s.longest_step(None), f64::INFINITY);
     }
 
     #[test]
