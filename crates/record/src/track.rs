@@ -59,6 +59,7 @@ pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use samples::Samples;
 pub use targets::Target;
+pub use text::hex;
 pub use told::{TimeUnit, Worded};
 pub use wanted::Wanted;
 pub use widen::{NewColumn, widen};
