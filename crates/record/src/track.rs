@@ -43,6 +43,7 @@ mod wanted;
 mod waves;
 mod widen;
 
+pub use calendar::{DAY as NANOSECONDS_PER_DAY, SECONDS_PER_DAY};
 pub use cells::Cells;
 pub use checks::RowChecks;
 pub use inert::inert;
