@@ -109,6 +109,12 @@ impl Error {
     }
 }
 
+/// An error on one line: what is wrong; the way out.
+#[must_use]
+pub fn on_one_line(error: &dyn std::fmt::Display) -> String {
+    error.to_string().replace("\n  ", "; ")
+}
+
 /// A path on one line: a line end in a name would pass for the end of what we say.
 fn shown(path: &Path) -> String {
     path.display().to_string().replace('\n', "\\n")
