@@ -6,10 +6,13 @@ use wildpoint::method::{self, Judged, Segment, Verdict};
 use wildpoint::param::Settings;
 use wildpoint::stop::Stop;
 
-/// What `id` says of values at even steps under its defaults and these settings.
+/// What `id` says of values at even steps under its defaults, with the floor of the documents, and these settings.
 fn judged(id: &str, y: &[f64], settings: &[(&str, &str)]) -> Judged {
     let method = method::find(id).expect("a registered method");
     let mut chosen = Settings::defaults(method.about().params);
+    if chosen.get("floor").is_some() {
+        chosen.set_text(id, "floor", "auto").expect("a legal setting");
+    }
     for (key, value) in settings {
         chosen.set_text(id, key, value).expect("a legal setting");
     }

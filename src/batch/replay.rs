@@ -7,7 +7,7 @@ use super::set;
 use super::targets::{Target, file_name, targets};
 use super::{Ending, clean, print, tell};
 use crate::cli::OutputArgs;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, on_one_line};
 use crate::report::Summary;
 use crate::session::{Analysed, Recorded, check, open, read};
 use crate::stop::Stop;
@@ -138,7 +138,7 @@ pub(super) fn check_all(
 fn differences(path: &Path, accept_changed: bool) -> Result<Vec<String>> {
     let opened = match open(path, accept_changed) {
         Ok(opened) => opened,
-        Err(e @ Error::Changed { .. }) => return Ok(vec![e.to_string().replace("\n  ", "; ")]),
+        Err(e @ Error::Changed { .. }) => return Ok(vec![on_one_line(&e)]),
         Err(e) => return Err(e),
     };
     let analysed = Analysed::of(&opened.session, &opened.track, &Stop::never())?;

@@ -7,7 +7,7 @@ use crossbeam_channel::Sender;
 use super::message::Message;
 use super::model::Model;
 use super::plot::{Pyramid, VotesPlot};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, on_one_line};
 use crate::job::Worker;
 use crate::method::METHODS;
 use crate::session::{Ballot, Preparation, Preset, Setup, candidates, detect};
@@ -117,7 +117,7 @@ impl Poll {
             match detect(&self.track, channel, &self.samples, &setup, None, stop) {
                 Ok(detection) => ballot.add(id, detection.judged.verdict(), stop)?,
                 Err(Error::Stopped) => return Err(Error::Stopped),
-                Err(e) => left_out.push((id, e.to_string().replace("\n  ", "; "))),
+                Err(e) => left_out.push((id, on_one_line(&e))),
             }
         }
         let (pyramid, agreed) = (VotesPlot::pyramid(&ballot, stop)?, ballot.agreed(ballot.half(), stop)?);

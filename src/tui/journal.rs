@@ -9,6 +9,7 @@ use crossbeam_channel::{Receiver, Sender, unbounded};
 
 use super::message::{Fate, Message};
 use super::model::{Model, Overlay, Tone};
+use crate::error::on_one_line;
 use crate::session::journal::{Header, Scribe};
 use crate::track::Source;
 use writer::{Begin, Order, Writer};
@@ -47,7 +48,7 @@ impl Journal {
         let mut journal = Self { desk: None, scribe: Scribe::default(), held: Vec::new() };
         let Some(folder) = folder else { return journal };
         if let Err(e) = files::make(&folder) {
-            let text = e.to_string().replace("\n  ", "; ");
+            let text = on_one_line(&e);
             model.say(Tone::Warning, format!("no journal: {text}; only what is saved is safe"));
             return journal;
         }

@@ -7,7 +7,7 @@ use super::action::{Action, Panel};
 use super::keys::Meaning;
 use super::message::{Effect, Message};
 use super::model::{Knob, Model, Overlay, Picker, PickerKind, Prompt, PromptKind, Tone};
-use crate::error::Error;
+use crate::error::{Error, on_one_line};
 use crate::track::printable;
 
 mod channels;
@@ -106,7 +106,7 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
         Message::Written { what, path, result } => files::written(model, &what, &path, result),
         Message::Files(news) => dialog::news(model, news),
         Message::Unjournalled(e) => {
-            let text = e.to_string().replace("\n  ", "; ");
+            let text = on_one_line(&e);
             model.say(Tone::Error, format!("the journal ends here, :w saves: {text}"));
             Vec::new()
         }
@@ -238,7 +238,7 @@ fn analysed(
         }
         Err(Error::Stopped) => {}
         Err(e) => {
-            let text = e.to_string().replace("\n  ", "; ");
+            let text = on_one_line(&e);
             // What other settings gave would pass for the result of these.
             let state = &mut model.channels[plan];
             (state.drawn, state.queue, state.flags) = (None, Vec::new(), super::plot::Flags::default());

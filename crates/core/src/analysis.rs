@@ -17,6 +17,7 @@ use crate::stop::{Stop, Stopped};
 
 mod gaps;
 mod outcome;
+mod serialize;
 mod sight;
 
 use gaps::{GapPlaces, gaps_to_fill};
@@ -78,6 +79,12 @@ impl<'a> Input<'a> {
         let taught = taught(&setup.preparation, self.decisions);
         let sight = Sight::of(self.series, self.companions, (&setup.preparation, &taught), stop)?;
         Ok((Arc::new(sight), taught))
+    }
+}
+
+impl<'a> From<&'a Series<'a>> for Input<'a> {
+    fn from(series: &'a Series<'a>) -> Self {
+        Self::new(series, None)
     }
 }
 

@@ -92,7 +92,8 @@ impl Calibration {
 pub fn calibrate(series: &Series<'_>, stop: &Stop) -> Result<Calibration, Stopped> {
     let (t, y) = (series.t.as_ref(), series.y.as_ref());
     let held = share_held(y);
-    let record = Record { t, y, stretches: stretches(t, Some(MAX_GAP)), holds: held >= HOLDS, resolution: resolution(y) };
+    let record =
+        Record { t, y, stretches: stretches(t, Some(MAX_GAP)), holds: held >= HOLDS, resolution: resolution(y) };
     stop.check()?;
     let mut masked = coarse_mask(&record, stop)?;
     let mut limits = round(&record, &mut masked, Round::First, stop)?;
@@ -127,8 +128,7 @@ fn coarse_mask(record: &Record<'_>, stop: &Stop) -> Result<Vec<bool>, Stopped> {
 /// One round: limits under the mask, and the mask that they give.
 fn round(record: &Record<'_>, masked: &mut Vec<bool>, pass: Round, stop: &Stop) -> Result<Vec<f64>, Stopped> {
     let n = record.y.len();
-    let (wide, narrow) =
-        (background::Span { half: 100, middle: 10 }, background::Span { half: 50, middle: 10 });
+    let (wide, narrow) = (background::Span { half: 100, middle: 10 }, background::Span { half: 50, middle: 10 });
     let first = pass == Round::First;
     let lower = (STEPS * record.resolution).max(if first { 0.0 } else { WHITE * white_noise(record, masked) });
     let mut least = vec![f64::INFINITY; n];

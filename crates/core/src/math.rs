@@ -23,4 +23,5 @@ pub mod sorted_four;
 pub mod sorted_window;
 pub mod spline;
 pub mod student;
+pub mod tie;
 pub mod window_fit;

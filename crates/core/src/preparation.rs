@@ -6,7 +6,7 @@ use crate::check::{Applied, CHECKS};
 use crate::error::{Error, Result};
 
 /// What is done with a channel before its method sees it. What it takes out counts as missing for the method.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct Preparation {
     /// Checks, in the order in which they are made: each sees what those before it left.
     pub checks: Vec<Applied>,

@@ -1,4 +1,4 @@
-//! Repair: what takes the place of an outlier. Section 8 of the methods page.
+//! Repair: what takes the place of an outlier. Section 8 of `docs/methods.md`.
 //!
 //! Detection and repair are separate choices. Adding a repair: a row in [`REPAIRS`] and, where it interpolates, a
 //! file `repair/your_repair.rs`.
@@ -392,7 +392,7 @@ mod tests {
     fn a_repair_is_found_by_its_id_and_a_knob_matters_to_those_that_have_it() {
         assert_eq!(find("spline").unwrap().id, "spline");
         assert!(find("splin").unwrap_err().to_string().contains("did you mean spline?"));
-        // methods.md, section 8: what is removed is not filled; anchors are the spline's, order and points the
+        // `docs/methods.md`, section 8: what is removed is not filled; anchors are the spline's, order and points the
         // polynomial's.
         let matter = |method: &str| -> Vec<&str> {
             let settings = settings(&[("method", method)]);

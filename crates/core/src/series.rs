@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::error::Error;
 use crate::interval::nominal_interval;
 
 /// Steps in one piece of parallel work.
@@ -58,6 +59,40 @@ impl<'a> Series<'a> {
         let y = rows.iter().map(|&i| y[i as usize]).collect();
         let interval = nominal_interval(&t);
         Self { rows: Some(Cow::Owned(rows)), t: Cow::Owned(t), y: Cow::Owned(y), interval }
+    }
+
+    /// [`Series::new`] of slices that nobody has checked.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] when there are not as many values as times, or when the times do not increase.
+    pub fn checked(t: &'a [f64], y: &'a [f64]) -> Result<Self, Error> {
+        if t.len() != y.len() {
+            let what = format!("{} times and {} values", t.len(), y.len());
+            return Err(Error::usage(what, "give one value for each time, NaN where there is none"));
+        }
+        if u32::try_from(t.len()).is_err() {
+            return Err(Error::usage(format!("{} samples", t.len()), "give fewer than 2^32 at a time"));
+        }
+        let mut last = f64::NEG_INFINITY;
+        for (index, &time) in t.iter().enumerate().filter(|(i, time)| time.is_finite() && y[*i].is_finite()) {
+            if time <= last {
+                let what = format!("the time at index {index}, {time}, does not lie after the one before it, {last}");
+                return Err(Error::usage(what, "sort the samples by time and leave repeated times out"));
+            }
+            last = time;
+        }
+        Ok(Self::new(t, y))
+    }
+
+    /// The time of each row, from the first to that of the last sample; NaN for rows without a sample.
+    #[must_use]
+    pub fn seconds_of_rows(&self) -> Cow<'_, [f64]> {
+        let Some(rows) = self.rows.as_deref() else { return Cow::Borrowed(&self.t) };
+        let mut seconds = vec![f64::NAN; rows.last().map_or(0, |last| *last as usize + 1)];
+        for (&row, &time) in rows.iter().zip(self.t.iter()) {
+            seconds[row as usize] = time;
+        }
+        Cow::Owned(seconds)
     }
 
     /// The same samples, owned; none when every row is present, in which case there is nothing to keep but the
@@ -147,6 +182,13 @@ impl<'a> Series<'a> {
         self.t.partition_point(|x| *x < t)
     }
 
+    /// The longest step in seconds in which at most `max_gap` samples are lost; infinite for none.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+    pub fn longest_step(&self, max_gap: Option<usize>) -> f64 {
+        max_gap.map_or(f64::INFINITY, |most| (most as f64 + 1.5 - ROUNDING) * self.interval)
+    }
+
     /// Samples lost between the one at `position` and the one before it; 0 for the first.
     #[must_use]
     #[inline]
@@ -211,8 +253,10 @@ impl<'a> Series<'a> {
     }
 }
 
-/// Samples lost in a step of `dt` seconds at a nominal interval of `interval` seconds. The small constant keeps a
-/// tie a tie when the times of the file are rounded.
+/// Keeps a tie a tie when the times of a file are rounded, in nominal intervals.
+const ROUNDING: f64 = 1e-6;
+
+/// Samples lost in a step of `dt` seconds at a nominal interval of `interval` seconds.
 #[must_use]
 #[inline]
 pub fn lost_samples(dt: f64, interval: f64) -> usize {
@@ -220,7 +264,7 @@ pub fn lost_samples(dt: f64, interval: f64) -> usize {
     if dt < 1.49 * interval {
         return 0;
     }
-    let steps = dt / interval + 0.5 + 1e-6;
+    let steps = dt / interval + 0.5 + ROUNDING;
     // A cast from float rounds down, saturates, and takes NaN (fewer than two samples) to 0.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates as wanted")]
     let steps = steps as usize;
@@ -279,6 +323,18 @@ mod tests {
         assert_eq!(losses(0..t.len()), gaps);
         assert_eq!(losses(777..CHUNK + 1), [CHUNK - 1, CHUNK]);
         assert_eq!(s.segments(Some(5)).len(), gaps.len() + 1);
+    }
+
+    #[test]
+    fn the_longest_step_loses_no_more_than_it_may() {
+        let t = [0.0, 0.25, 0.5, 0.75];
+        let s = Series::new(&t, &t);
+        for most in [0, 1, 5, 1000] {
+            let longest = s.longest_step(Some(most));
+            assert_eq!(lost_samples(longest * (1.0 - 1e-9), s.interval), most);
+            assert_eq!(lost_samples(longest * (1.0 + 1e-9), s.interval), most + 1);
+        }
+        assert_eq!(s.longest_step(None), f64::INFINITY);
     }
 
     #[test]

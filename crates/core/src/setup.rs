@@ -36,6 +36,19 @@ impl std::fmt::Debug for Setup {
     }
 }
 
+impl serde::Serialize for Setup {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct as _;
+        let mut out = serializer.serialize_struct("Setup", 5)?;
+        out.serialize_field("method", self.method.about().id)?;
+        out.serialize_field("settings", &self.settings)?;
+        out.serialize_field("rate", &self.rate)?;
+        out.serialize_field("repair", &self.repair)?;
+        out.serialize_field("preparation", &self.preparation)?;
+        out.end()
+    }
+}
+
 impl PartialEq for Setup {
     fn eq(&self, other: &Self) -> bool {
         self.same_detection(other) && self.repair == other.repair

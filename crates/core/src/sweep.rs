@@ -1,5 +1,5 @@
 //! Threshold advice: how many samples a method flags along one of its parameters, and where that count stands still
-//! (section 8a of the methods page). True wild points stand far off: between the noise and them lies a range of
+//! (section 8a of `docs/methods.md`). True wild points stand far off: between the noise and them lies a range of
 //! thresholds that all flag the same samples.
 
 use std::ops::Range;

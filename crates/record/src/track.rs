@@ -43,6 +43,7 @@ mod wanted;
 mod waves;
 mod widen;
 
+pub use calendar::{DAY as NANOSECONDS_PER_DAY, SECONDS_PER_DAY};
 pub use cells::Cells;
 pub use checks::RowChecks;
 pub use inert::inert;
@@ -59,6 +60,7 @@ pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use samples::Samples;
 pub use targets::Target;
+pub use text::hex;
 pub use told::{TimeUnit, Worded};
 pub use wanted::Wanted;
 pub use widen::{NewColumn, widen};

@@ -13,6 +13,7 @@ use super::super::message::Message;
 use super::files;
 use crate::error::Error;
 use crate::session::journal::{Base, Encoder, Entry, Header};
+use crate::track::hex;
 
 /// How often a file goes to the disk at most.
 const PERIOD: Duration = Duration::from_secs(1);
@@ -127,7 +128,7 @@ impl Writer {
             let whole = std::fs::canonicalize(&path).unwrap_or(path);
             Base { sha256: sha256_of(&whole), path: whole.to_string_lossy().into_owned() }
         });
-        let session = header.base.as_ref().map(|b| hexadecimal(&Sha256::digest(&b.path))).unwrap_or_default();
+        let session = header.base.as_ref().map(|b| hex(&Sha256::digest(&b.path))).unwrap_or_default();
         let path = files::name(&self.folder, &header.sha256, &session);
         let (mut encoder, mut text) = Encoder::new(&header);
         entries.iter().for_each(|entry| text.push_str(&encoder.entry(entry)));
@@ -186,9 +187,5 @@ pub(super) fn sha256_of(path: &Path) -> String {
             }
         }
     };
-    if read().is_err() { String::new() } else { hexadecimal(&sum.finalize()) }
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|b| format!("{b:02x}")).collect()
+    if read().is_err() { String::new() } else { hex(&sum.finalize()) }
 }

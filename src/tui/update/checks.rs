@@ -5,6 +5,7 @@ use super::super::message::Effect;
 use super::super::model::{Knob, Model, Tone};
 use super::{commit, set_up};
 use crate::check::Applied;
+use crate::error::on_one_line;
 use crate::session::{Edit, Preparation, Setup, Suggestion, parse_period, position_check, suggestions};
 use crate::track::printable;
 
@@ -122,7 +123,7 @@ pub(super) fn value_text(setup: &Setup, knob: Knob) -> String {
 
 /// `:check`: makes a check of the channel on the screen.
 pub(super) fn add(model: &mut Model, text: &str) -> Result<Vec<Effect>, String> {
-    let check = Applied::parse(text).map_err(|e| one_line(&e))?;
+    let check = Applied::parse(text).map_err(|e| on_one_line(&e))?;
     for name in &check.channels {
         if model.track.beside(model.channel(), name).is_none() {
             return Err(format!("{}: there is no such channel", printable(name)));
@@ -160,7 +161,7 @@ pub(super) fn remove(model: &mut Model, index: usize) -> Vec<Effect> {
 
 /// `:period`: the period of the channel on the screen.
 pub(super) fn set_period(model: &mut Model, text: &str) -> Result<Vec<Effect>, String> {
-    let period = parse_period(text).map_err(|e| one_line(&e))?;
+    let period = parse_period(text).map_err(|e| on_one_line(&e))?;
     let preparation = Preparation { period, ..model.plan().setup.preparation.clone() };
     let words = period.map_or_else(|| "not circular".to_owned(), |p| format!("circular, with the period {p}"));
     Ok(prepare(model, preparation, &words))
@@ -173,7 +174,7 @@ pub(super) fn position(model: &mut Model, names: &str) -> Result<Vec<Effect>, St
         let Some(channel) = model.track.channel(&other.channel).filter(|c| c.same_target(model.channel())) else {
             continue;
         };
-        let Some(check) = position_check(&model.track, channel, names).map_err(|e| one_line(&e))? else { continue };
+        let Some(check) = position_check(&model.track, channel, names).map_err(|e| on_one_line(&e))? else { continue };
         let mut preparation = other.setup.preparation.clone();
         preparation.checks.retain(|known| known.id() != check.id());
         preparation.add(check);
@@ -203,8 +204,4 @@ pub(super) fn describe(before: &Preparation, after: &Preparation) -> String {
         (None, Some(check)) => format!("no check {}", check.id()),
         (None, None) => "checks".into(),
     }
-}
-
-fn one_line(e: &crate::error::Error) -> String {
-    e.to_string().replace("\n  ", "; ")
 }

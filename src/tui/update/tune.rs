@@ -5,6 +5,7 @@ use super::super::advice::BY_ITSELF;
 use super::super::message::Effect;
 use super::super::model::{Knob, Model, PickerKind, PromptKind, Tone};
 use super::{checks, list_of, picker, prompt, set_up};
+use crate::error::on_one_line;
 use crate::method::{METHODS, Method};
 use crate::param::{Settings, Value};
 use crate::session::sweep::multiplier;
@@ -79,7 +80,7 @@ fn with_value(setup: &Setup, knob: Knob, value: Value) -> Result<Setup, String> 
         },
         _ => Ok(()),
     }
-    .map_err(|e| e.to_string().replace("\n  ", "; "))?;
+    .map_err(|e| on_one_line(&e))?;
     Ok(after)
 }
 
@@ -271,7 +272,7 @@ pub(super) fn take_suggestion(model: &mut Model) -> Vec<Effect> {
                 vec![Effect::Advise(plan)]
             }
             Err(e) => {
-                model.say(Tone::Warning, e.to_string().replace("\n  ", "; "));
+                model.say(Tone::Warning, on_one_line(&e));
                 Vec::new()
             }
         };

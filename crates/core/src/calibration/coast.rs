@@ -36,10 +36,8 @@ pub(super) fn coast(record: &Record<'_>, limits: &[f64], masked: &mut [bool], st
     let judge = |stretch: &Range<usize>| {
         let forward: Vec<usize> = stretch.clone().collect();
         let backward: Vec<usize> = stretch.clone().rev().collect();
-        let (ahead, back) = rayon::join(
-            || one_way(record, &forward, limits, stop),
-            || one_way(record, &backward, limits, stop),
-        );
+        let (ahead, back) =
+            rayon::join(|| one_way(record, &forward, limits, stop), || one_way(record, &backward, limits, stop));
         let (ahead, mut back) = (ahead?, back?);
         back.reverse();
         Ok(ahead.into_iter().zip(back).map(|(a, b)| both(a, b)).collect())

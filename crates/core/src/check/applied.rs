@@ -117,6 +117,18 @@ pub fn parse_all(texts: &[String]) -> Result<Vec<Applied>, Error> {
     texts.iter().map(|text| Applied::parse(text)).collect()
 }
 
+impl serde::Serialize for Applied {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct as _;
+        let mut out = serializer.serialize_struct("Applied", 4)?;
+        out.serialize_field("check", self.id())?;
+        out.serialize_field("settings", &self.settings)?;
+        out.serialize_field("channels", &self.channels)?;
+        out.serialize_field("on", &self.on)?;
+        out.end()
+    }
+}
+
 impl PartialEq for Applied {
     fn eq(&self, other: &Self) -> bool {
         let same = self.id() == other.id() && self.settings == other.settings;

@@ -10,7 +10,7 @@ use crate::math::pieces::{self, PIECE};
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
-/// The method `diff-median` of section 5 of the methods page.
+/// The method `diff-median` of section 5 of `docs/methods.md`.
 #[derive(Debug, Clone, Copy)]
 pub struct DiffMedian;
 

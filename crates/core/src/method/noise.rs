@@ -1,5 +1,5 @@
 //! The scales that methods judge by: the noise of a segment and the floor below which no scale may fall.
-//! Section 1 of the methods page; eq. (2) of \[000\] for `spline`.
+//! Section 1 of `docs/methods.md`; eq. (2) of \[000\] for `spline`.
 
 use std::ops::Range;
 use std::sync::Arc;

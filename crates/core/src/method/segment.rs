@@ -18,8 +18,8 @@ pub struct Segment<'a> {
     /// Nominal interval in seconds, of the whole channel or, where the record was calibrated, of the segment; NaN where
     /// that has one sample.
     pub interval: f64,
-    /// Noise scale by the setting `sigma`, at least [`Segment::floor`]; 0 when it counts as zero (section 1 of the
-    /// methods page), and for methods without that setting.
+    /// Noise scale by the setting `sigma`, at least [`Segment::floor`]; 0 when it counts as zero (section 1 of
+    /// `docs/methods.md`), and for methods without that setting.
     pub sigma: f64,
     /// Lower bound on any scale, by the setting `floor`; 0 when there is none. The median of [`Segment::floors`] where
     /// each sample has its own.

@@ -10,7 +10,7 @@ use crate::math::sorted_window::SortedWindow;
 use crate::param::{Param, Settings};
 use crate::stop::{Stop, Stopped};
 
-/// The method `template` of section 3 of the methods page.
+/// The method `template` of section 3 of `docs/methods.md`.
 #[derive(Debug, Clone, Copy)]
 pub struct Template;
 

@@ -1,4 +1,4 @@
-//! Two-sided variable-order polynomial test: section 6 of the methods page, \[000\].
+//! Two-sided variable-order polynomial test: section 6 of `docs/methods.md`, \[000\].
 
 use rayon::prelude::*;
 

@@ -16,6 +16,12 @@ impl PartialEq for Settings {
     }
 }
 
+impl serde::Serialize for Settings {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.collect_map(self.iter().map(|(param, value)| (param.key, value)))
+    }
+}
+
 impl Settings {
     /// Every parameter at its default.
     #[must_use]

@@ -5,7 +5,8 @@ use std::fmt;
 use super::Numbers;
 
 /// The value of one parameter. Prints in the form that `--set` and the session file read back.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(untagged)]
 pub enum Value {
     /// A whole number.
     Whole(i64),

@@ -49,7 +49,7 @@ pub fn detect_taught(
     let rate = rate_of(track, channel, setup)?;
     let companions = companions(track, channel, &series, setup)?;
     let input = Input { rate: rate.as_ref(), companions: &companions, ..input };
-    Detection::calibrated(input, setup, previous, stop)
+    Ok(Detection::calibrated(input, setup, previous, stop)?)
 }
 
 /// The values of the channels that each check of `setup` names, at the samples of `series`.

@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 
 use super::{Outcome, Place};
 use crate::error::Result;
-use crate::track::{CellChange, Changes, NewRow, Samples, Track, rewrite};
+use crate::track::{CellChange, Changes, NewRow, Samples, Track, hex, rewrite};
 
 /// What the outcomes change in the file. Each outcome belongs to the channel of that index in the track.
 #[must_use]
@@ -76,12 +76,4 @@ impl Write for Hashing<'_> {
     fn flush(&mut self) -> std::io::Result<()> {
         self.out.flush()
     }
-}
-
-fn hex(bytes: &[u8]) -> String {
-    use std::fmt::Write as _;
-    bytes.iter().fold(String::new(), |mut text, b| {
-        let _ = write!(text, "{b:02x}");
-        text
-    })
 }

@@ -27,5 +27,5 @@ pub fn sweep(
     let rate = rate_of(track, channel, setup)?;
     let companions = companions(track, channel, &series, setup)?;
     let input = Input { companions: &companions, ..Input::new(&series, rate.as_ref()) };
-    wildpoint_core::sweep::sweep(input, track.truth_for(&channel.name), setup, (param, values), stop)
+    Ok(wildpoint_core::sweep::sweep(input, track.truth_for(&channel.name), setup, (param, values), stop)?)
 }

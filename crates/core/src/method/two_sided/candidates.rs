@@ -256,7 +256,9 @@ mod tests {
     /// Section 6, step 3: the candidate that came closest, within 1e-9 delta the higher order.
     #[test]
     fn of_candidates_equally_close_the_higher_order_is_remembered() {
-        let code = |parabola: f64, line: f64| predicting(parabola, line).closest_to(Bounded { y: 0.0, delta: 1.0 }, 0.0).0.code;
+        let code = |parabola: f64, line: f64| {
+            predicting(parabola, line).closest_to(Bounded { y: 0.0, delta: 1.0 }, 0.0).0.code
+        };
         assert_eq!(code(0.5, 0.5), 2);
         assert_eq!(code(0.5, 0.5 - 0.5e-9), 2, "within 1e-9 delta");
         assert_eq!(code(0.5, 0.5 - 2e-9), 1);
@@ -268,7 +270,9 @@ mod tests {
     /// the exact one.
     #[test]
     fn a_prediction_near_a_limit_is_doubtful() {
-        let doubtful = |parabola: f64, line: f64, newest: f64| predicting(parabola, line).closest_to(Bounded { y: 0.0, delta: 1.0 }, newest).2;
+        let doubtful = |parabola: f64, line: f64, newest: f64| {
+            predicting(parabola, line).closest_to(Bounded { y: 0.0, delta: 1.0 }, newest).2
+        };
         assert!(!doubtful(0.5, 0.9, 0.5));
         // A distance of delta, less its tie.
         assert!(doubtful(1.0 - 1e-9, 3.0, 1.0));

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 use toml::{Spanned, Table};
+use wildpoint_core::error::Error as CoreError;
 
 use super::FORMAT;
 use crate::check::{Applied, find as find_check};
@@ -329,16 +330,16 @@ impl Reader<'_> {
     }
 
     /// A complaint about a value, with the line it stands on.
-    fn wrap(&self, line: Option<usize>, e: Error) -> Error {
+    fn wrap(&self, line: Option<usize>, e: CoreError) -> Error {
         match e {
-            Error::Usage { what, help } => fault(self.path, line, what, &help),
-            other => other,
+            CoreError::Usage { what, help } => fault(self.path, line, what, &help),
+            CoreError::Stopped => Error::Stopped,
         }
     }
 }
 
 /// The value as the parameter takes it: a word only where it has words, a number only where it has numbers.
-fn value_of(param: &Param, value: &toml::Value) -> Result<Value> {
+fn value_of(param: &Param, value: &toml::Value) -> std::result::Result<Value, CoreError> {
     let words: &[&str] = match param.kind {
         Kind::Choice(words) | Kind::RealOr { words, .. } => words,
         Kind::WholeOrOff { .. } => &["off"],
@@ -356,8 +357,8 @@ fn value_of(param: &Param, value: &toml::Value) -> Result<Value> {
     }
 }
 
-fn illegal(param: &Param, value: &toml::Value) -> Error {
-    Error::usage(
+fn illegal(param: &Param, value: &toml::Value) -> CoreError {
+    CoreError::usage(
         format!("{} = {value}: not a legal value", param.key),
         format!("{} takes {}", param.key, param.range()),
     )
