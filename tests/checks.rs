@@ -272,7 +272,7 @@ fn a_method_follows_another_and_a_turned_multiplier_is_a_fresh_judgement() {
     let flags = rows(&folder.text("flags.csv"));
     assert_eq!(flags.iter().filter(|r| r[17] == "hampel" && r[4] == "outlier").count(), 8, "{flags:?}");
     // A sweep turns the multiplier on the scores that it has: the counts are those of single runs.
-    let args = "--method poly-window --set feedback=false --check valid-range:high=60";
+    let args = "--method hampel --check valid-range:high=60";
     let swept = json(&folder.done(&format!("sweep a.csv {args} --from 2 --to 8 --steps 3 --json")));
     for point in swept["points"].as_array().unwrap() {
         let k = point["value"].as_f64().unwrap();

@@ -169,7 +169,7 @@ impl Summary {
             let n = c.counts;
             let _ = write!(out, "{}: {} flagged by {}", printable(&c.channel), n.flagged, c.method);
             if n.by_checks > 0 {
-                let _ = write!(out, " and {} of them by checks before it", n.by_checks);
+                let _ = write!(out, " and the checks before it ({} by checks)", n.by_checks);
             }
             let _ = write!(out, " ({} isolated, {} patches)", n.isolated, n.patches);
             let _ = write!(out, ", {} repaired, {} removed", n.repaired, n.removed);
