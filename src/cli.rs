@@ -12,8 +12,10 @@ use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
 use crate::track::{DASH, Delimiter, Encoding, LoadOptions, TimeUnit, Worded};
 
 mod experiments;
+mod prepare;
 
 pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
+pub use prepare::PrepareArgs;
 mod screen;
 mod tools;
 pub use screen::{Color, ConfigArgs, Glyphs};
@@ -263,6 +265,9 @@ pub struct Shared {
     /// A parameter of the method or the repair; repeatable (see `wildpoint methods ID`).
     #[arg(long, value_name = "KEY=VALUE", value_parser = pair)]
     pub set: Vec<(String, String)>,
+    /// What is done with the channels before.
+    #[command(flatten)]
+    pub prepare: PrepareArgs,
     /// What takes the place of an outlier: own, remove, linear, spline, polynomial, expected.
     #[arg(long, value_name = "ID")]
     pub repair: Option<String>,

@@ -141,7 +141,8 @@ fn opening(cli: &Cli) -> Result<Opening> {
     let track = load(&source, &cli.shared.load.options(rate))?;
     let mut options = cli.shared.load.options(None);
     options.channels.clear();
-    let session = Session::new(&track, options, &setup);
+    let mut session = Session::new(&track, options, &setup);
+    cli.shared.prepare.prepare(&mut session, &track, cli.shared.preset)?;
     Ok(Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() })
 }
 

@@ -104,6 +104,7 @@ impl Opening {
         let mut model = Model::new(Arc::new(self.track), self.session, self.file, look.theme, look.glyphs);
         model.channels.iter_mut().zip(&self.own).for_each(|(channel, own)| channel.touched = *own);
         model.shown = self.own.iter().position(|own| *own).unwrap_or(first);
+        notes.extend(first::prepared(&model));
         if !notes.is_empty() {
             model.say(Tone::Warning, notes.join(" · "));
         }

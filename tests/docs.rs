@@ -1,13 +1,22 @@
 //! The README keeps its word: the generated parts are those of this program, and its commands are real.
-//! `WILDPOINT_UPDATE=1 cargo test --test docs` writes the generated parts again.
+//! `WILDPOINT_UPDATE=1 cargo test --test docs` writes the generated parts again. The pages of `docs/` lead only to what is
+//! there, and describe every method with its parameters.
 
-use std::path::PathBuf;
+#![expect(clippy::expect_used, reason = "a test that cannot read its own data may say so by ending")]
 
+use std::path::{Path, PathBuf};
+
+use wildpoint::method::METHODS;
+use wildpoint::repair;
 use wildpoint::session::{Session, Setup};
 use wildpoint::track::{LoadOptions, Source, load};
 use wildpoint::tui::plot::Glyphs;
 use wildpoint::tui::theme::Theme;
 use wildpoint::tui::{Look, Opening, still};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
 
 fn path() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("README.md")
@@ -65,4 +74,68 @@ fn the_commands_of_the_readme_exist() {
         seen += 1;
     }
     assert!(seen >= 5, "the README shows the commands");
+}
+
+/// The pages that people read, by their paths in the repository.
+fn pages() -> Vec<PathBuf> {
+    let inside = std::fs::read_dir(root().join("docs")).expect("docs is there");
+    let pages = inside.map(|e| e.expect("an entry").path()).filter(|p| p.extension().is_some_and(|e| e == "md"));
+    pages.chain(["README.md", "CONTRIBUTING.md"].map(|name| root().join(name))).collect()
+}
+
+/// The targets of the links of a page, without those into the web.
+fn links(text: &str) -> Vec<String> {
+    let targets = text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(target, _)| target);
+    targets.filter(|t| !t.contains("://") && !t.contains(' ')).map(str::to_owned).collect()
+}
+
+/// What stands between backticks and looks like a path of this repository.
+fn paths(text: &str) -> Vec<String> {
+    let quoted = text.split('`').skip(1).step_by(2);
+    let tops = ["src/", "crates/", "tests/", "docs/", "fuzz/", "benches/", "sessions/"];
+    let literal = |p: &&str| tops.iter().any(|top| p.starts_with(top)) && !p.contains(['*', ' ']);
+    let own = |p: &&str| !p.contains("your_method") && !p.contains("ID");
+    quoted.filter(literal).filter(own).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_pages_lead_to_what_is_there() {
+    let mut seen = 0;
+    for page in pages() {
+        let text = std::fs::read_to_string(&page).expect("a page");
+        let folder = page.parent().expect("a folder");
+        for link in links(&text) {
+            let file = link.split('#').next().unwrap_or_default();
+            assert!(folder.join(file).exists(), "{}: {link} leads nowhere", page.display());
+            seen += 1;
+        }
+        for path in paths(&text) {
+            assert!(root().join(&path).exists(), "{}: there is no {path}", page.display());
+            seen += 1;
+        }
+    }
+    assert!(seen > 40, "links and paths are seen: {seen}");
+    let summary = std::fs::read_to_string(root().join("docs/SUMMARY.md")).expect("the summary");
+    for page in std::fs::read_dir(root().join("docs")).expect("docs is there") {
+        let name = page.expect("an entry").file_name().to_string_lossy().into_owned();
+        let listed = name == "SUMMARY.md" || !name.ends_with(".md") || links(&summary).contains(&name);
+        assert!(listed, "docs/SUMMARY.md does not list {name}");
+    }
+}
+
+#[test]
+fn the_methods_page_has_every_method_and_parameter() {
+    let text = std::fs::read_to_string(root().join("docs/methods.md")).expect("the page");
+    let quoted: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
+    // `update = winsor` names the parameter `update`.
+    let named = |key: &str| quoted.iter().any(|q| *q == key || q.split(" = ").next() == Some(key));
+    let mut missing: Vec<String> = Vec::new();
+    for method in METHODS {
+        let about = method.about();
+        let keys = std::iter::once(about.id).chain(about.params.iter().map(|p| p.key));
+        missing.extend(keys.filter(|key| !named(key)).map(|key| format!("{} {key}", about.id)));
+    }
+    let of_repair = repair::PARAMS.iter().map(|p| p.key).filter(|key| *key != repair::METHOD.key && !named(key));
+    missing.extend(of_repair.map(|key| format!("repair {key}")));
+    assert!(missing.is_empty(), "docs/methods.md does not name: {}", missing.join(", "));
 }

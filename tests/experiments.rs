@@ -1,4 +1,4 @@
-//! The published experiments: what section 9 of the methods page expects to hold does hold, what it knows not to hold
+//! The published experiments: what section 9 of `docs/methods.md` expects to hold does hold, what it knows not to hold
 //! is reported so, the tables stay what they are, and simulated records are the same everywhere.
 
 #![expect(clippy::expect_used, reason = "a test that cannot read its own data may say so by ending")]
@@ -87,7 +87,7 @@ fn qin_has_the_median_best_and_the_template_worst_at_fifty() {
     assert_findings(&result, &hold, &["eq-1-as-printed", "median-best-at-20-and-30", "mean-breaks-at-200"]);
     for window in ["7", "8", "10"] {
         for method in ["poly-window", "template", "mean-window", "median-window"] {
-            // Such windows cannot reach three scales: methods page, section 3.
+            // Such windows cannot reach three scales: `docs/methods.md`, section 3.
             assert!(figure(&result, &[window, method], 4) < 0.5, "{method} with a window of {window}");
         }
     }

@@ -59,7 +59,7 @@ impl Record {
 
     fn segment(&self) -> Segment<'_> {
         let rate = Some(Rate { t: &self.t, y: &self.rate });
-        Segment { t: &self.t, y: &self.y, interval: 0.125, sigma: 1.0, floor: 0.0, rate }
+        Segment { t: &self.t, y: &self.y, interval: 0.125, sigma: 1.0, floor: 0.0, floors: &[], objections: &[], rate }
     }
 
     fn judged(&self, id: &str, changes: &[(&str, &str)]) -> Judged {
@@ -328,7 +328,7 @@ fn one_channel_jointly_is_the_single_test_with_the_gate_of_chi_square() {
     let several = together(&[&series], &joint);
     let cuts = series.segments(Some(5));
     let scales = noise::scales(&series, &cuts, &joint, &Stop::never()).expect("nobody stops it");
-    let segment = Segment::of(&series, &cuts[0], scales[0], None);
+    let segment = Segment::of(&series, &cuts[0], &scales[0], None);
     let single = method("kalman").judge(&segment, &joint, &Stop::never()).expect("nobody stops it");
     assert!([60, 101, 102, 103].iter().all(|&i| single.verdict[i] == Verdict::Outlier), "{:?}", single.verdict);
     assert!(!single.restarts.is_empty() && single.own.iter().any(|own| own.is_finite()));

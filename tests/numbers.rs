@@ -17,7 +17,7 @@ use fuzzing::methods::{judged, made_of};
 use proptest::prelude::*;
 use wildpoint::experiment::Random;
 use wildpoint::method::{METHODS, Method};
-use wildpoint::param::{Kind, Settings, Value};
+use wildpoint::param::{Kind, Numbers, Settings, Value};
 use wildpoint::repair::{PARAMS, REPAIRS};
 use wildpoint::session::{Preset, Session, Setup};
 use wildpoint::track::{LoadOptions, Track};
@@ -104,6 +104,7 @@ fn ends(kind: Kind) -> Vec<Value> {
             numbers.into_iter().chain(words.iter().map(|w| Value::Word(w))).collect()
         }
         Kind::WholeOrOff { min, max } => vec![Value::Whole(min), Value::Whole(max), Value::Word("off")],
+        Kind::Numbers => vec![Value::Numbers(Numbers::NONE)],
     }
 }
 

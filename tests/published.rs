@@ -6,15 +6,18 @@ use wildpoint::method::{self, Judged, Segment, Verdict};
 use wildpoint::param::Settings;
 use wildpoint::stop::Stop;
 
-/// What `id` says of values at even steps under its defaults and these settings.
+/// What `id` says of values at even steps under its defaults, with the floor of the documents, and these settings.
 fn judged(id: &str, y: &[f64], settings: &[(&str, &str)]) -> Judged {
     let method = method::find(id).expect("a registered method");
     let mut chosen = Settings::defaults(method.about().params);
+    if chosen.get("floor").is_some() {
+        chosen.set_text(id, "floor", "auto").expect("a legal setting");
+    }
     for (key, value) in settings {
         chosen.set_text(id, key, value).expect("a legal setting");
     }
     let t: Vec<f64> = (0..y.len()).map(|i| i as f64).collect();
-    let segment = Segment { t: &t, y, interval: 1.0, sigma: 0.0, floor: 0.0, rate: None };
+    let segment = Segment { t: &t, y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate: None };
     method.judge(&segment, &chosen, &Stop::never()).expect("nobody stops it")
 }
 

@@ -21,9 +21,12 @@ fn method(id: &str) -> &'static dyn Method {
     find(id).expect("a registered method")
 }
 
-/// Settings of a method, changed as told.
+/// Defaults of a method with the floor of the documents, changed as told.
 fn settings(id: &str, changes: &[(&str, &str)]) -> Settings {
     let mut settings = Settings::defaults(method(id).about().params);
+    if settings.get("floor").is_some() {
+        settings.set_text(id, "floor", "auto").expect("a legal value");
+    }
     for (key, text) in changes {
         settings.set_text(id, key, text).expect("a legal value");
     }
@@ -147,7 +150,7 @@ fn huber_beta() {
     }
 }
 
-/// Section 6 of the methods page: deviation of (prediction - sample) in sigma, one to four steps ahead.
+/// Section 6 of `docs/methods.md`: deviation of (prediction - sample) in sigma, one to four steps ahead.
 #[test]
 fn prediction_errors_of_the_candidates() {
     let figures = |points, order| [1, 2, 3, 4].map(|ahead| prediction_error(points, order, ahead));
@@ -182,7 +185,7 @@ fn the_two_sided_test_shows_its_candidates_figures() {
 }
 
 /// \[001\] eq. (43) with a spike of 15 sigma at each of the first five samples in turn: none is seen without
-/// `look_back`, every one with it (section 4 of the methods page).
+/// `look_back`, every one with it (section 4 of `docs/methods.md`).
 #[test]
 fn look_back_sees_the_first_samples() {
     let noise = |i: usize| ((i * 7919 % 997) as f64 / 498.0 - 1.0) * 1.7;

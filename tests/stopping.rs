@@ -52,7 +52,7 @@ fn judge(record: &Record, method: &dyn Method, stop: &Stop) -> Result<(), Stoppe
     let settings = Settings::defaults(method.about().params);
     let series = Series::new(&record.t, &record.y);
     let whole = 0..series.len();
-    let scales = [noise::Scales { sigma: 1.0, floor: 0.0 }];
+    let scales = [noise::Scales { sigma: 1.0, floor: 0.0, floors: None, objections: None }];
     let rate = Rate { t: &record.t, y: &record.rate };
     judge_segments(method, &series, (std::slice::from_ref(&whole), &scales), Some(rate), &settings, stop).map(|_| ())
 }

@@ -55,6 +55,7 @@ fn one(
     }
     let track = load(&Source::of(file)?, &options)?;
     let mut session = Session::new(&track, shared.load.options(None), setup);
+    shared.prepare.prepare(&mut session, &track, shared.preset)?;
     // A rate channel that was loaded beside the named ones is not judged.
     if !shared.load.channel.is_empty() {
         session.plans.retain(|p| any(&track, &shared.load.channel, p) || !any(&track, &shared.rate, p));

@@ -33,6 +33,8 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
     let (track, index, note) = one_channel(&args.file, &args.load, args.rate.as_deref())?;
     let channel = &track.channels[index];
     let samples = Samples::of(channel, &track.time);
+    let preparation = args.prepare.of(&track, channel, args.preset)?;
+    let setups: Vec<Setup> = setups.into_iter().map(|setup| setup.prepared(&preparation)).collect();
     let judged =
         set::for_all(&setups, args.outputs.quiet || args.outputs.json, |setup| judge(&track, index, &samples, setup));
     let judged: Vec<(Row, Vec<Verdict>)> = judged.into_iter().collect::<Result<_>>()?;
@@ -40,7 +42,7 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
     let mut ballot = Ballot::new(samples.series(channel, &track.time).len());
     rows.iter().zip(&verdicts).try_for_each(|(row, verdict)| ballot.add(row.method, verdict, &Stop::never()))?;
     let consensus = match args.votes {
-        Some(votes) => Some(written(args, votes, &track, index, &samples, &ballot)?),
+        Some(votes) => Some(written(args, votes, &track, index, &samples, &ballot, &preparation)?),
         None => None,
     };
     let told = Told {
@@ -63,7 +65,7 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
 
 /// The methods that take part with their settings, and those that cannot.
 fn setups(args: &CompareArgs) -> Result<(Vec<Setup>, Vec<Skipped>)> {
-    let named: Vec<&'static dyn Method> = args.method.iter().map(|id| method_of_id(id)).collect::<Result<_>>()?;
+    let named: Vec<&'static dyn Method> = args.method.iter().map(|id| Ok(method_of_id(id)?)).collect::<Result<_>>()?;
     let all = if named.is_empty() { METHODS } else { named.as_slice() };
     let (mut setups, left_out) = candidates(all, Preset::from(args.preset), args.rate.as_deref());
     let skipped = left_out.into_iter().map(|method| Skipped { method, why: "needs a rate channel (--rate)" }).collect();
@@ -84,7 +86,7 @@ fn assign(setups: &mut [Setup], key: &str, value: &str) -> Result<()> {
     if let Some((id, key)) = key.split_once('.') {
         let method = method_of_id(id)?.about().id;
         return match setups.iter_mut().find(|s| s.method.about().id == method) {
-            Some(setup) => setup.settings.set_text(method, key, value),
+            Some(setup) => Ok(setup.settings.set_text(method, key, value)?),
             None => {
                 Err(Error::usage(format!("{id}: does not take part"), "name it with --method, or leave out its --set"))
             }
@@ -93,7 +95,7 @@ fn assign(setups: &mut [Setup], key: &str, value: &str) -> Result<()> {
     let mut known = false;
     for setup in setups.iter_mut().filter(|s| s.settings.get(key).is_some()) {
         known = true;
-        setup.settings.set_text(setup.method.about().id, key, value).map_err(|e| match e {
+        setup.settings.set_text(setup.method.about().id, key, value).map_err(|e| match e.into() {
             Error::Usage { what, help } => Error::usage(
                 format!("{}: {what}", setup.method.about().id),
                 format!("{help}\n  or set it for some methods only: --set ID.{key}=VALUE"),

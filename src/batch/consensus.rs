@@ -7,15 +7,14 @@ use super::clean;
 use super::comparison::Row;
 use crate::cli::CompareArgs;
 use crate::error::{Error, Result};
-use crate::method::noise::Scales;
 use crate::method::shared::MAX_GAP;
-use crate::method::{About, Judged, Method, Own, Segment, segments};
+use crate::method::{About, Gated, Judged, Method, Own, Segment};
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::repair;
 use crate::report::Summary;
 use crate::review::Decisions;
 use crate::score::Score;
-use crate::session::{Analysed, Ballot, Detection, Outcome, Preset, Session, Setup, settle};
+use crate::session::{Analysed, Ballot, Outcome, Preparation, Preset, Session, Setup, detect, settle};
 use crate::stop::{Stop, Stopped};
 use crate::track::{Outputs, Samples, Track};
 
@@ -67,9 +66,10 @@ pub(super) fn written(
     index: usize,
     samples: &Samples,
     ballot: &Ballot,
+    preparation: &Preparation,
 ) -> Result<Row> {
     let channel = &track.channels[index];
-    let mut setup = Setup::new(&Consensus, Preset::Default);
+    let mut setup = Setup::new(&Consensus, Preset::Default).prepared(preparation);
     let count = i64::try_from(votes).map_err(|_| Error::usage("too many votes", "give fewer"))?;
     setup.settings.set("consensus", VOTES.key, Value::Whole(count))?;
     setup.repair.set_text("repair", repair::METHOD.key, args.repair.as_deref().unwrap_or("linear"))?;
@@ -102,11 +102,10 @@ fn consensus(
     ballot: &Ballot,
 ) -> Result<Outcome> {
     let channel = &track.channels[index];
-    let series = samples.series(channel, &track.time);
     let stop = Stop::never();
-    let segments = segments(&series, &setup.settings, &stop)?;
-    let judged = Judged { verdict: ballot.verdicts(votes), ..Judged::unchecked(series.len()) };
-    let scales = vec![Scales::default(); segments.len()];
-    let detection = Detection::new(setup.clone(), segments, scales, judged);
+    let mut detection = detect(track, channel, samples, setup, None, &stop)?;
+    let samples_seen = detection.judged.verdict().len();
+    let judged = Judged { verdict: ballot.verdicts(votes), ..Judged::unchecked(samples_seen) };
+    detection.judged = Gated::new(judged, None);
     Ok(settle(track, channel, samples, Arc::new(detection), &Decisions::default(), &stop)?)
 }

@@ -6,6 +6,7 @@ use std::io::Write;
 use serde::Serialize;
 
 use super::{Ending, print, print_json};
+use crate::check::{CHECKS, Check};
 use crate::error::Result;
 use crate::method::{METHODS, Method};
 use crate::param::{Param, Value};
@@ -38,6 +39,9 @@ struct ListedParam {
 pub(super) fn run(id: Option<&str>, json: bool, as_markdown: bool, out: &mut dyn Write) -> Result<Ending> {
     if as_markdown {
         return print(out, &markdown());
+    }
+    if let (Some(check), false) = (id.and_then(check_of_id), json) {
+        return print(out, &check_page(check));
     }
     match (id, json) {
         (Some(id), true) => print_json(out, &listed(method_of_id(id)?)),
@@ -77,6 +81,7 @@ fn json(value: Value) -> serde_json::Value {
         Value::Real(x) => x.into(),
         Value::Word(w) => w.into(),
         Value::Switch(b) => b.into(),
+        Value::Numbers(list) => list.as_slice().to_vec().into(),
     }
 }
 
@@ -94,6 +99,10 @@ fn list() -> String {
     for repair in REPAIRS {
         let _ = writeln!(out, "  {:18} {}", repair.id, repair.help);
     }
+    out.push_str("\nchecks before the method (--check)\n");
+    for about in CHECKS.iter().map(|c| c.about()) {
+        let _ = writeln!(out, "  {:18} {}", about.id, about.help);
+    }
     out.push_str("\n`wildpoint methods ID` explains one, with its parameters.\n");
     out
 }
@@ -102,16 +111,36 @@ fn page(method: &dyn Method) -> String {
     let about = method.about();
     let mut out = format!("{}: {} ({}, {})\n\n", about.id, about.name, about.family, about.source);
     wrap(&mut out, "", &one_line(about.advice));
-    for (title, params) in [("parameters", about.params), ("parameters of repair", PARAMS)] {
-        let _ = writeln!(out, "\n{title}");
-        for p in params {
-            let paper = p.paper.map_or(String::new(), |v| format!(", paper {v}"));
-            let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
-            let _ = writeln!(out, "  {:16} default {}{paper}  [{}]{unit}", p.key, p.default, p.range());
-            wrap(&mut out, "                   ", &one_line(p.help));
-        }
-    }
+    parameters(&mut out, "parameters", about.params);
+    parameters(&mut out, "parameters of repair", PARAMS);
     out
+}
+
+/// The check with this id, unless a method has it.
+fn check_of_id(id: &str) -> Option<&'static dyn Check> {
+    CHECKS.iter().copied().find(|check| check.about().id == id)
+}
+
+fn check_page(check: &dyn Check) -> String {
+    let about = check.about();
+    let mut out = format!("{}: a check before the method\n\n", about.id);
+    wrap(&mut out, "", about.help);
+    let channels = about.channels.map_or("", |_| "channels=A,B,");
+    wrap(&mut out, "", &format!("--check {}:{channels}KEY=VALUE,KEY=VALUE", about.id));
+    parameters(&mut out, "parameters", about.params);
+    out
+}
+
+fn parameters(out: &mut String, title: &str, params: &[Param]) {
+    let _ = writeln!(out, "\n{title}");
+    for p in params {
+        let paper = p.paper.map_or(String::new(), |v| format!(", paper {v}"));
+        let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
+        let default = p.default.to_string();
+        let default = if default.is_empty() { "none" } else { &default };
+        let _ = writeln!(out, "  {:16} default {default}{paper}  [{}]{unit}", p.key, p.range());
+        wrap(out, "                   ", &one_line(p.help));
+    }
 }
 
 /// The methods table of the README.

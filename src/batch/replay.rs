@@ -7,7 +7,7 @@ use super::set;
 use super::targets::{Target, file_name, targets};
 use super::{Ending, clean, print, tell};
 use crate::cli::OutputArgs;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, on_one_line};
 use crate::report::Summary;
 use crate::session::flags::flags_sha256;
 use crate::session::{Accepted, Analysed, Appended, Grown, Recorded, check, open, read};
@@ -171,7 +171,7 @@ fn checked(path: &Path, accepted: Accepted) -> Result<Checked> {
     let opened = match open(path, Accepted { appended, ..accepted }) {
         Ok(opened) => opened,
         Err(e @ (Error::Changed { .. } | Error::Appended { .. })) => {
-            return Ok(Checked { differences: vec![e.to_string().replace("\n  ", "; ")], ..Checked::default() });
+            return Ok(Checked { differences: vec![on_one_line(&e)], ..Checked::default() });
         }
         Err(e) => return Err(e),
     };

@@ -1,4 +1,4 @@
-//! `clean --suggest`: thresholds from the record itself (section 8a of the methods page).
+//! `clean --suggest`: thresholds from the record itself (section 8a of `docs/methods.md`).
 
 use crate::cli::Shared;
 use crate::error::{Error, Result};

@@ -35,6 +35,7 @@ pub(super) fn run(args: &SweepArgs, out: &mut dyn Write) -> Result<Ending> {
     let (track, index, note) = one_channel(&args.file, &args.load, args.judge.rate.as_deref())?;
     let channel = &track.channels[index];
     let samples = Samples::of(channel, &track.time);
+    let setup = setup.prepared(&args.judge.prepare.of(&track, channel, args.judge.preset)?);
     let swept = sweep(&track, channel, &samples, &setup, (param, &values), &Stop::never())?;
     let method = setup.method.about().id;
     if args.json {

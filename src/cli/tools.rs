@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Load, OutputArgs, PresetArg, Shared, pair};
+use super::{Load, OutputArgs, PrepareArgs, PresetArg, Shared, pair};
 use crate::error::Result;
 use crate::session::sweep::{FROM, STEPS, TO};
 use crate::session::{DEFAULT_METHOD, Preset, Setup};
@@ -72,6 +72,9 @@ pub struct JudgeArgs {
     /// A parameter of the method; repeatable (see `wildpoint methods ID`).
     #[arg(long, value_name = "KEY=VALUE", value_parser = pair)]
     pub set: Vec<(String, String)>,
+    /// What is done with the channel before.
+    #[command(flatten)]
+    pub prepare: PrepareArgs,
     /// Cut the record where more than this many samples are lost in a row.
     #[arg(long, value_name = "N|off")]
     pub max_gap: Option<String>,
@@ -111,6 +114,9 @@ pub struct CompareArgs {
     /// Cut the record where more than this many samples are lost in a row.
     #[arg(long, value_name = "N|off")]
     pub max_gap: Option<String>,
+    /// What is done with the channel before any of the methods sees it.
+    #[command(flatten)]
+    pub prepare: PrepareArgs,
     /// A sample is an outlier when at least so many methods flag it.
     #[arg(long, value_name = "K")]
     pub votes: Option<usize>,

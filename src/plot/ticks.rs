@@ -2,7 +2,7 @@
 
 use super::labels::{DECIMAL, round_step};
 use super::view::View;
-use crate::track::{TimeAxis, TimeFormat};
+use crate::track::{NANOSECONDS_PER_DAY, SECONDS_PER_DAY, TimeAxis, TimeFormat};
 
 /// Which steps count as round.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,8 +18,7 @@ const CLOCK: [f64; 17] = [
     1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 900.0, 1800.0, 3600.0, 7200.0, 10800.0, 21600.0,
     43200.0,
 ];
-const DAY: f64 = 86400.0;
-const NS_PER_DAY: i128 = 86_400_000_000_000;
+const DAY: f64 = SECONDS_PER_DAY;
 
 /// The smallest round step whose labels of `label_width` columns leave room between them on `width` columns. A
 /// caller needs it to give labels enough digits.
@@ -76,8 +75,11 @@ impl TimeTicks {
         let digits = decimals(step);
         let label_width = if clock { 8 + if digits > 0 { digits + 1 } else { 0 } } else { 10 };
         #[expect(clippy::cast_precision_loss, reason = "the remainder of a day fits a double")]
-        let phase =
-            if clock { (time.origin_ns.rem_euclid(NS_PER_DAY)) as f64 / 1e9 } else { time.origin_ns as f64 / 1e9 };
+        let phase = if clock {
+            (time.origin_ns.rem_euclid(i128::from(NANOSECONDS_PER_DAY))) as f64 / 1e9
+        } else {
+            time.origin_ns as f64 / 1e9
+        };
         let unit = match time.format {
             TimeFormat::Iso | TimeFormat::YearLast { .. } | TimeFormat::Epoch { .. } => "UTC",
             TimeFormat::Seconds => "s",

@@ -29,7 +29,7 @@ pub fn diagnostics(track: &Track, session: &Session, analysed: &Analysed, out: &
             &inert(channel.name),
             &cell(channel.raw(track, row, position)),
             verdict_word(channel.outcome, position),
-            &cell(position.and_then(|p| judged.expected().get(p).copied())),
+            &cell(position.and_then(|p| judged.expected().get(p).map(|e| channel.outcome.detection.written(*e)))),
             &cell(position.and_then(|p| judged.tolerance(p)).filter(|h| *h > 0.0 || flagged)),
             &cell(clean),
         ];

@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::method::noise;
 use crate::method::shared::MAX_GAP;
 use crate::param::Value;
+use crate::session::{Remedy, Suggestion, suggestions};
 use crate::stop::{Stop, Stopped};
 use crate::track::{Delimiter, Encoding, FaultKind, Faults, Track, printable, without_signed_zero};
 
@@ -77,6 +78,9 @@ pub struct ChannelFacts {
     pub noise_difference: Option<f64>,
     /// Noise scale by the smoothing spline, of the longest segment.
     pub noise_spline: Option<f64>,
+    /// What the values suggest doing before a method sees them, in words.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub suggests: Vec<String>,
 }
 
 /// One kind of fault.
@@ -154,6 +158,11 @@ impl Inspection {
         let _ = writeln!(out, "time      {} ({}): {range}{duration}", printable(&self.time), self.time_format);
         self.columns_text(&mut out);
         self.channels_text(&mut out);
+        for channel in &self.channels {
+            for words in &channel.suggests {
+                let _ = writeln!(out, "  note: {} {}", printable(&channel.name), printable(words));
+            }
+        }
         if self.faults.is_empty() {
             let _ = writeln!(out, "\nbad rows  none");
         } else {
@@ -243,7 +252,18 @@ fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts
         range: low.zip(series.y.iter().copied().reduce(f64::max)),
         noise_difference: of_longest(noise::by_difference(&series, &segments, &stop)),
         noise_spline: of_longest(noise::by_spline(&series, &segments, &stop)),
+        suggests: suggestions(channel).into_iter().map(in_words).collect(),
     }
+}
+
+/// A suggestion with what is done about it.
+fn in_words(suggestion: Suggestion) -> String {
+    let option = match suggestion.remedy {
+        Remedy::Check(check) => format!("--check {check}"),
+        Remedy::Period(period) => format!("--period {period:?}"),
+    };
+    let done = if suggestion.certain { "done by itself" } else { "not done by itself" };
+    format!("{} ({done}: {option})", suggestion.words)
 }
 
 /// What of a record could not be used, with the first lines, and what the loader remarked.

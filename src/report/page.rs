@@ -101,7 +101,7 @@ impl Page {
         if let Source::File(path) = &mut said.data.source {
             *path = record::plain(path).into();
         }
-        let command = clean_command(&said, Path::new("cleaned.csv"));
+        let command = clean_command(&said, track, Path::new("cleaned.csv"));
         Ok(Self {
             title: track.source.name(),
             outcome: record::outcome(&summary),

@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use super::inspection::remarks;
 use crate::error::{Error, Result};
-use crate::method::Way;
+use crate::method::{Verdict, Way};
 use crate::param::{Settings, Value};
 use crate::score::{FinalError, Scores, final_error};
-use crate::session::{Analysed, Counts, Session};
+use crate::session::{Analysed, Counts, Outcome, Session};
 use crate::track::{Track, printable};
 
 /// A result in a nutshell.
@@ -50,6 +50,12 @@ pub struct ChannelSummary {
     pub settings: serde_json::Map<String, serde_json::Value>,
     /// Every setting of the repair.
     pub repair: serde_json::Map<String, serde_json::Value>,
+    /// What was done with the channel before the method saw it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub checks: Vec<CheckSummary>,
+    /// Period of a circular channel.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub period: Option<f64>,
     /// How many samples are what.
     pub counts: Counts,
     /// Stretches between cuts.
@@ -64,6 +70,17 @@ pub struct ChannelSummary {
     /// Against the outlier-free column, where one is named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub final_error: Option<FinalError>,
+}
+
+/// What a check objected to before the method.
+#[derive(Debug, Clone, Serialize)]
+pub struct CheckSummary {
+    /// The check as `--check` has it.
+    pub check: String,
+    /// Samples that failed.
+    pub outliers: usize,
+    /// Samples that are suspect.
+    pub suspects: usize,
 }
 
 /// A model that was lost and started again.
@@ -96,6 +113,8 @@ impl Summary {
                 method: plan.setup.method.about().id,
                 settings: json_settings(&plan.setup.settings),
                 repair: json_settings(&plan.setup.repair),
+                checks: checks(outcome),
+                period: plan.setup.preparation.period,
                 counts: outcome.counts,
                 segments: detection.segments.len(),
                 restarts: restarts.collect(),
@@ -149,6 +168,9 @@ impl Summary {
         for c in &self.channels {
             let n = c.counts;
             let _ = write!(out, "{}: {} flagged by {}", printable(&c.channel), n.flagged, c.method);
+            if n.by_checks > 0 {
+                let _ = write!(out, " and the checks before it ({} by checks)", n.by_checks);
+            }
             let _ = write!(out, " ({} isolated, {} patches)", n.isolated, n.patches);
             let _ = write!(out, ", {} repaired, {} removed", n.repaired, n.removed);
             for (count, what) in [
@@ -165,6 +187,14 @@ impl Summary {
                 }
             }
             let _ = writeln!(out, " of {} samples in {} segments", n.present, c.segments);
+            for check in &c.checks {
+                let (outliers, suspects) = (check.outliers, check.suspects);
+                let check = printable(&check.check);
+                let _ = writeln!(out, "  checked first: {check}: {outliers} outliers, {suspects} suspects");
+            }
+            if let Some(period) = c.period {
+                let _ = writeln!(out, "  circular: judged unwrapped, period {period}");
+            }
             if let Some(s) = &c.score {
                 let _ = writeln!(out, "  against the truth: {}", score_line(s));
             }
@@ -207,12 +237,28 @@ pub(super) fn score_line(s: &Scores) -> String {
     line
 }
 
+/// What each check of a result objected to; the analyst's decisions play no part.
+fn checks(outcome: &Outcome) -> Vec<CheckSummary> {
+    let detection = &outcome.detection;
+    let applied = &detection.setup.preparation.checks;
+    let mut found = vec![[0_usize; 2]; applied.len()];
+    for (check, verdict) in detection.objections() {
+        if let Some([outliers, suspects]) = found.get_mut(check) {
+            *(if verdict == Verdict::Outlier { outliers } else { suspects }) += 1;
+        }
+    }
+    let made = applied.iter().zip(found).filter(|(applied, _)| applied.on);
+    made.map(|(applied, [outliers, suspects])| CheckSummary { check: applied.to_string(), outliers, suspects })
+        .collect()
+}
+
 fn json_settings(settings: &Settings) -> serde_json::Map<String, serde_json::Value> {
     let value = |v: Value| match v {
         Value::Whole(n) => n.into(),
         Value::Real(x) => x.into(),
         Value::Word(w) => w.into(),
         Value::Switch(b) => b.into(),
+        Value::Numbers(list) => list.as_slice().to_vec().into(),
     };
     settings.iter().map(|(p, v)| (p.key.to_owned(), value(v))).collect()
 }

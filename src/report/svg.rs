@@ -50,9 +50,7 @@ pub(super) fn figures(track: &Track, series: Series<'_>, outcome: &Outcome) -> V
     // Nobody stops it.
     let Ok(drawn) = Drawn::new(outcome.clone(), &series, None, &Stop::never()) else { return Vec::new() };
     let flags = Flags::new(&drawn.flags(&series));
-    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-    let lost = outcome.detection.setup.settings.whole_or_off(MAX_GAP.key).map(|n| n as f64 + 1.5 - 1e-6);
-    let gap = lost.map_or(f64::INFINITY, |steps| steps * series.interval);
+    let gap = series.longest_step(outcome.detection.setup.settings.whole_or_off(MAX_GAP.key));
     let subject = Subject { time: &track.time, series, drawn, flags, gap };
     let mut figures = vec![picture::overview(&subject), picture::trace(&subject), picture::residual(&subject)];
     figures.extend(close::largest(&subject));

@@ -7,7 +7,9 @@ use serde_json::Value as Json;
 use super::lines::Line;
 use crate::cli::FormatArg;
 use crate::error::{Error, Result};
-use crate::track::{Cell, Delimiter, Dialect, LoadOptions, Reading, Source, TimeAxis, TimeFormat, Track, load};
+use crate::track::{
+    Cell, Delimiter, Dialect, LoadOptions, Reading, SECONDS_PER_DAY, Source, TimeAxis, TimeFormat, Track, load,
+};
 
 /// What a line holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,8 +63,6 @@ const ROWS: usize = 3;
 
 /// Longest text of a line that is passed on unread.
 const SHOWN: usize = 200;
-
-const DAY: f64 = 86_400.0;
 
 impl Layout {
     /// The layout of a stream that starts with `lines`, and how many of them are data; none while they are too few
@@ -176,7 +176,7 @@ impl Layout {
         let mut seconds = self.axis.parse(&text).filter(|t| t.is_finite())?;
         if self.axis.format == TimeFormat::Clock && self.last.is_finite() {
             // A step back of more than half a day is the next day.
-            seconds += DAY * ((self.last - seconds) / DAY).round();
+            seconds += SECONDS_PER_DAY * ((self.last - seconds) / SECONDS_PER_DAY).round();
         }
         self.last = seconds;
         Some(seconds)

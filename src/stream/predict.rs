@@ -10,7 +10,7 @@ use crate::method::alpha_beta_gamma::Tracker;
 use crate::method::five_point::Line;
 use crate::method::kalman::{Measured, Single, Tuning};
 use crate::method::predictor::{Answer, Engine, Model, Prediction, Rules, Sink};
-use crate::method::two_sided::{Candidates, Closest};
+use crate::method::two_sided::{Bounded, Candidates, Closest};
 use crate::method::{Verdict, shared};
 use crate::param::{Choice, Settings};
 
@@ -42,8 +42,8 @@ pub(super) fn online(plan: &Plan, interval: f64) -> Box<dyn Online> {
                 Choice::Number(delta) => delta,
                 Choice::Word(_) => settings.real(shared::K.key) * sigma,
             };
-            let candidates = Candidates::new(settings, delta, sigma, interval);
-            Fed::new(candidates, interval, max_run, |y| y, Forward { delta })
+            let candidates = Candidates::new(settings, sigma, interval);
+            Fed::new(candidates, interval, max_run, move |y| Bounded { y, delta }, Forward { delta })
         }
     }
 }

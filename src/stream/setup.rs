@@ -35,6 +35,20 @@ const NEEDED: [(&str, Value, &str); 5] = [
     (shared::FLOOR.key, Value::Real(0.0), "it is the smallest step of the whole segment"),
 ];
 
+/// A stream judges what it reads as it stands.
+///
+/// # Errors
+/// [`Error::Usage`] for a channel that is prepared before its method sees it.
+fn refuse_preparation(plan: &SessionPlan) -> Result<()> {
+    if plan.setup.preparation.is_empty() {
+        return Ok(());
+    }
+    Err(Error::usage(
+        format!("{}: its session makes checks, or unwraps it, before the method", plan.channel),
+        "a stream does neither: take them out of the session, or name the method with --method",
+    ))
+}
+
 /// Method, settings and columns for `args`.
 ///
 /// # Errors
@@ -46,6 +60,7 @@ pub(super) fn plan(args: &StreamArgs) -> Result<Planned> {
         Some(path) => {
             let session = read(path)?;
             let from = planned(&session, options.channels.first())?;
+            refuse_preparation(from)?;
             if options.channels.is_empty() {
                 options.channels.push(from.channel.clone());
             }

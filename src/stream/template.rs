@@ -1,4 +1,4 @@
-//! Template convolution on a stream: section 3 of the methods page, where it needs the last samples only.
+//! Template convolution on a stream: section 3 of `docs/methods.md`, where it needs the last samples only.
 
 use std::collections::VecDeque;
 

@@ -65,6 +65,9 @@ pub enum Action {
     DefaultValue,
     Preset,
     Suggested,
+    SuggestedChecks,
+    Checks,
+    ExcludeDecided,
     NextFlag,
     PreviousFlag,
     NextUnreviewed,
@@ -126,6 +129,9 @@ impl Action {
                 | A::DefaultValue
                 | A::Preset
                 | A::Suggested
+                | A::SuggestedChecks
+                | A::Checks
+                | A::ExcludeDecided
                 | A::Accept
                 | A::Reject
                 | A::Toggle

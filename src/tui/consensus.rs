@@ -7,20 +7,22 @@ use crossbeam_channel::Sender;
 use super::message::Message;
 use super::model::Model;
 use super::plot::{Pyramid, VotesPlot};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, on_one_line};
 use crate::job::Worker;
 use crate::method::METHODS;
-use crate::session::{Ballot, Preset, Setup, candidates, detect};
+use crate::session::{Ballot, Preparation, Preset, Setup, candidates, detect};
 use crate::stop::Stop;
 use crate::track::{Samples, Track};
 
 /// What the methods were asked with: an answer holds for as long as this stays.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Question {
     /// Every method has this preset of values: the one in force on the channel.
     pub preset: Preset,
     /// The rate channel, for the methods that need one.
     pub rate: Option<String>,
+    /// What is done with the channel before any of them sees it.
+    pub preparation: Preparation,
 }
 
 /// What all methods say of a channel.
@@ -39,7 +41,7 @@ pub struct Consensus {
 }
 
 /// How far the methods have been asked.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Polling {
     /// The job.
     pub generation: u64,
@@ -69,7 +71,11 @@ impl Question {
     pub fn of(setup: &Setup) -> Self {
         let has = |preset: Preset| setup.settings == preset.settings(setup.method);
         let paper = has(Preset::Paper) && !has(Preset::Default);
-        Self { preset: if paper { Preset::Paper } else { Preset::Default }, rate: setup.rate.clone() }
+        Self {
+            preset: if paper { Preset::Paper } else { Preset::Default },
+            rate: setup.rate.clone(),
+            preparation: setup.preparation.clone(),
+        }
     }
 }
 
@@ -107,10 +113,11 @@ impl Poll {
         for (done, setup) in setups.iter().enumerate() {
             progress(done);
             let id = setup.method.about().id;
-            match detect(&self.track, channel, &self.samples, setup, None, stop) {
+            let setup = setup.clone().prepared(&self.question.preparation);
+            match detect(&self.track, channel, &self.samples, &setup, None, stop) {
                 Ok(detection) => ballot.add(id, detection.judged.verdict(), stop)?,
                 Err(Error::Stopped) => return Err(Error::Stopped),
-                Err(e) => left_out.push((id, e.to_string().replace("\n  ", "; "))),
+                Err(e) => left_out.push((id, on_one_line(&e))),
             }
         }
         let (pyramid, agreed) = (VotesPlot::pyramid(&ballot, stop)?, ballot.agreed(ballot.half(), stop)?);

@@ -1,7 +1,9 @@
 //! What of a record is shown first, and what is said of it then.
 
+use super::action::Action;
 use super::files;
-use crate::session::Session;
+use super::model::Model;
+use crate::session::{Session, suggestions};
 use crate::track::{Track, is_id, printable};
 
 /// The plan that is shown first: of the first channel that is not, by its name, an id.
@@ -26,6 +28,23 @@ pub(super) fn notes(track: &Track) -> Vec<String> {
         None => {}
     }
     notes
+}
+
+/// What is done with the channel on the screen before its method sees it because the record suggests it, and what the
+/// record suggests beside.
+pub(super) fn prepared(model: &Model) -> Vec<String> {
+    let done = &model.plan().setup.preparation;
+    if model.file.is_some() {
+        return Vec::new();
+    }
+    let suggested = suggestions(model.channel());
+    let (done, offered): (Vec<_>, Vec<_>) = suggested.into_iter().partition(|s| done.has(&s.remedy));
+    let mut words: Vec<String> = done.into_iter().map(|s| s.words).collect();
+    if !offered.is_empty() {
+        let list: Vec<String> = offered.into_iter().map(|s| s.words).collect();
+        words.push(format!("{}: {} takes it", list.join("; "), model.key(Action::SuggestedChecks)));
+    }
+    words
 }
 
 #[cfg(test)]

@@ -138,6 +138,14 @@ pub enum Knob {
     Detection(&'static Param),
     /// A parameter of repair (which repair, too).
     Repair(&'static Param),
+    /// A check before the method, by its index in the plan and its id: on or off.
+    Check(usize, &'static str),
+    /// A parameter of the check of this index.
+    OfCheck(usize, &'static Param),
+    /// The period of a circular channel.
+    Period,
+    /// Whether the method learns from decisions.
+    ExcludeDecided,
 }
 
 impl Model {
@@ -307,6 +315,13 @@ impl Model {
         }
         knobs.extend(setup.settings.mattering().map(|(p, _)| Knob::Detection(p)));
         knobs.extend(setup.repair.mattering().map(|(p, _)| Knob::Repair(p)));
+        for (index, check) in setup.preparation.checks.iter().enumerate() {
+            knobs.push(Knob::Check(index, check.id()));
+            knobs.extend(check.settings.mattering().map(|(p, _)| Knob::OfCheck(index, p)));
+        }
+        if !setup.preparation.is_empty() {
+            knobs.extend([Knob::Period, Knob::ExcludeDecided]);
+        }
         knobs
     }
 
@@ -368,6 +383,21 @@ impl Model {
 }
 
 impl Knob {
+    /// The parameter that it turns; none where it is something else.
+    #[must_use]
+    pub fn param(self) -> Option<&'static Param> {
+        match self {
+            Self::Detection(p) | Self::Repair(p) | Self::OfCheck(_, p) => Some(p),
+            Self::Method | Self::Rate | Self::Check(..) | Self::Period | Self::ExcludeDecided => None,
+        }
+    }
+
+    /// True where a group of knobs begins.
+    #[must_use]
+    pub fn begins_group(self) -> bool {
+        matches!(self, Self::Method | Self::Check(..)) || self.name() == "repair"
+    }
+
     /// Its name in the panel.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -375,7 +405,10 @@ impl Knob {
             Self::Method => "method",
             Self::Rate => "rate",
             Self::Repair(p) if p.key == repair::METHOD.key => "repair",
-            Self::Detection(p) | Self::Repair(p) => p.key,
+            Self::Check(_, id) => id,
+            Self::Period => "period",
+            Self::ExcludeDecided => "exclude_decided",
+            Self::Detection(p) | Self::Repair(p) | Self::OfCheck(_, p) => p.key,
         }
     }
 }

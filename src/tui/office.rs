@@ -16,8 +16,8 @@ use crate::plot::Drawn;
 use crate::report;
 use crate::review::Decisions;
 use crate::session::{
-    Analysed, Detection, Session, Setup, decisions, detect, detect_together, document, document_without_record, settle,
-    write_cleaned,
+    Analysed, Detection, Member, Session, Setup, decisions, detect_taught, detect_together, document,
+    document_without_record, settle, write_cleaned,
 };
 use crate::stop::Stop;
 use crate::track::{Lost, Outputs, Samples, Standing, Track};
@@ -34,9 +34,25 @@ pub struct Judge {
     /// The last result of the channel.
     previous: Option<Arc<Drawn>>,
     /// All channels that are judged together with this one, itself among them; empty when it is judged alone.
-    together: Vec<(usize, Arc<Samples>)>,
+    together: Vec<Together>,
     /// What one step of the active knob changes, where that is to come with the result.
     steps: Option<Box<StepsJob>>,
+}
+
+/// A channel that is judged together with others.
+#[derive(Debug)]
+struct Together {
+    channel: usize,
+    samples: Arc<Samples>,
+    setup: Setup,
+    decisions: Decisions,
+}
+
+impl Together {
+    fn member<'a>(&'a self, track: &'a Track) -> Member<'a> {
+        let Self { channel, samples, setup, decisions } = self;
+        Member { channel: &track.channels[*channel], samples, setup, decisions }
+    }
 }
 
 /// Samples up to which a result comes with what a step of the active knob changes: one frame tells all then. It takes
@@ -56,9 +72,14 @@ impl Judge {
         let state = &model.channels[plan];
         let channel = |plan: usize| &model.track.channels[model.channels[plan].channel];
         let of_target = |i: usize| channel(i).same_target(channel(plan));
-        let alike = |i: usize| i == plan || model.session.plans[i].setup.same_detection(&setup);
+        let alike = |i: usize| i == plan || model.session.plans[i].setup.same_method(&setup);
         let shares = |i: &usize| setup.together() && of_target(*i) && alike(*i);
-        let member = |i: usize| (model.channels[i].channel, Arc::clone(&model.channels[i].samples));
+        let member = |i: usize| Together {
+            channel: model.channels[i].channel,
+            samples: Arc::clone(&model.channels[i].samples),
+            setup: if i == plan { setup.clone() } else { model.session.plans[i].setup.clone() },
+            decisions: model.session.plans[i].decisions.clone(),
+        };
         Self {
             track: Arc::clone(&model.track),
             plan,
@@ -103,25 +124,24 @@ impl Judge {
         Ok(match self.previous.as_ref().map(|d| &d.outcome.detection) {
             // Which channels share the setup may have changed, though this one's has not.
             _ if !self.together.is_empty() => Arc::new(self.detect_together(stop)?),
-            Some(previous) if previous.setup.same_detection(&self.setup) => {
-                // Only repair or decisions have changed: what the method says stands.
+            Some(previous) if previous.holds_for(&self.setup, &self.decisions) => {
+                // Only the repair has changed, or decisions that the method does not see: what it says stands.
                 let same = previous.setup == self.setup;
                 if same { Arc::clone(previous) } else { Arc::new(previous.with_repair(&self.setup)) }
             }
             previous => {
                 let previous = previous.map(Arc::as_ref);
-                Arc::new(detect(&self.track, channel, &self.samples, &self.setup, previous, stop)?)
+                let asked = (&self.setup, &self.decisions);
+                Arc::new(detect_taught(&self.track, channel, &self.samples, asked, previous, stop)?)
             }
         })
     }
 
     fn detect_together(&self, stop: &Stop) -> Result<Detection> {
-        let channels: Vec<_> =
-            self.together.iter().map(|(channel, samples)| (&self.track.channels[*channel], samples.as_ref())).collect();
-        let found = detect_together(&self.track, &channels, &self.setup, stop)?;
-        let own = self.together.iter().position(|(channel, _)| *channel == self.channel);
-        let own = own.and_then(|at| found.into_iter().nth(at));
-        own.map(|detection| detection.with_repair(&self.setup)).ok_or(Error::Stopped)
+        let members: Vec<Member<'_>> = self.together.iter().map(|m| m.member(&self.track)).collect();
+        let found = detect_together(&self.track, &members, stop)?;
+        let own = self.together.iter().position(|m| m.channel == self.channel);
+        own.and_then(|at| found.into_iter().nth(at)).ok_or(Error::Stopped)
     }
 }
 

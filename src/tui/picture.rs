@@ -56,8 +56,7 @@ impl<'a> Picture<'a> {
         let series = state.samples.series(&model.track.channels[state.channel], &model.track.time);
         // Neighbours further apart than this are not joined: the record is cut there.
         let limit = model.session.plans[plan].setup.settings.whole_or_off(MAX_GAP.key);
-        #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-        let gap = limit.map_or(f64::INFINITY, |n| (n as f64 + 1.5 - 1e-6) * series.interval);
+        let gap = series.longest_step(limit);
         let (drawn, by_number, seconds) = (state.drawn.as_deref(), model.by_number, &model.track.time.seconds);
         Self { state, drawn, by_number, gap, max_gap: limit, seconds, no_flags: Flags::default(), series }
     }

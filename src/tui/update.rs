@@ -7,10 +7,11 @@ use super::action::{Action, Panel};
 use super::keys::Meaning;
 use super::message::{Effect, Message};
 use super::model::{Knob, Model, Overlay, Picker, PickerKind, Prompt, PromptKind, Tone};
-use crate::error::Error;
+use crate::error::{Error, on_one_line};
 use crate::track::printable;
 
 mod channels;
+mod checks;
 mod command;
 mod command_line;
 mod compare;
@@ -133,7 +134,7 @@ fn no_action(model: &mut Model, key: KeyEvent, prefix: Option<char>) {
 type Part = fn(&mut Model, Action) -> Option<Vec<Effect>>;
 
 /// The parts that carry actions out. Each action is one part's; the others leave it.
-const PARTS: [Part; 11] = [
+const PARTS: [Part; 12] = [
     review::act,
     decide::act,
     tune::act,
@@ -143,6 +144,7 @@ const PARTS: [Part; 11] = [
     compare::act,
     consensus::act,
     channels::act,
+    checks::act,
     files::act,
     window,
 ];
@@ -242,7 +244,7 @@ fn analysed(
         }
         Err(Error::Stopped) => {}
         Err(e) => {
-            let text = e.to_string().replace("\n  ", "; ");
+            let text = on_one_line(&e);
             // What other settings gave would pass for the result of these.
             let state = &mut model.channels[plan];
             (state.drawn, state.queue, state.flags) = (None, Vec::new(), super::plot::Flags::default());
@@ -335,7 +337,7 @@ pub(super) fn list_of(knob: Knob) -> Option<PickerKind> {
         Knob::Method => Some(PickerKind::Method),
         Knob::Rate => Some(PickerKind::Rate),
         Knob::Repair(p) if p.key == crate::repair::METHOD.key => Some(PickerKind::Repair),
-        Knob::Detection(_) | Knob::Repair(_) => None,
+        _ => None,
     }
 }
 

@@ -1,5 +1,6 @@
 //! Numerical kernels on slices: no track, no parameters.
 
+pub mod circle;
 pub mod difference;
 pub mod extrapolate;
 pub mod extremes;
@@ -22,4 +23,5 @@ pub mod sorted_four;
 pub mod sorted_window;
 pub mod spline;
 pub mod student;
+pub mod tie;
 pub mod window_fit;

@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::calibration::stretches;
 use crate::math::pieces;
 use crate::param::{Param, Settings};
 use crate::series::Series;
@@ -23,6 +24,7 @@ pub mod grubbs;
 pub mod hampel;
 mod judged;
 pub mod kalman;
+mod local;
 pub mod matched;
 pub mod mean_window;
 pub mod median_window;
@@ -80,7 +82,12 @@ pub fn find(id: &str) -> Option<&'static dyn Method> {
 /// # Errors
 /// [`Stopped`] as soon as nobody waits for it any more.
 pub fn segments(series: &Series<'_>, settings: &Settings, stop: &Stop) -> Result<Vec<Range<usize>>, Stopped> {
-    series.segments_unless(settings.whole_or_off(shared::MAX_GAP.key), &|| stop.check())
+    let max_gap = settings.whole_or_off(shared::MAX_GAP.key);
+    if noise::by_record(settings) {
+        stop.check()?;
+        return Ok(stretches(&series.t, max_gap));
+    }
+    series.segments_unless(max_gap, &|| stop.check())
 }
 
 /// Judges a whole channel, segment by segment: one entry for each sample of `series`, nothing carried over a cut.
@@ -113,7 +120,8 @@ pub fn judge_segments(
 ) -> Result<Judged, Stopped> {
     let judge = |(range, scales): (&Range<usize>, &noise::Scales)| {
         stop.check()?;
-        method.judge(&Segment::of(series, range, *scales, rate), settings, stop)?.bounded(stop)
+        let segment = Segment::of(series, range, scales, rate);
+        local::bounded_below(method.judge(&segment, settings, stop)?, &segment, settings, stop)?.bounded(stop)
     };
     // Segments are judged in any order and put together in theirs: the number of threads changes nothing.
     let parts: Vec<Judged> = ranges.par_iter().zip(scales).map(judge).collect::<Result<_, _>>()?;

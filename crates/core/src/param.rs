@@ -6,9 +6,11 @@
 
 use crate::error::{Error, Result, nearest};
 
+mod numbers;
 mod settings;
 mod value;
 
+pub use numbers::Numbers;
 pub use settings::Settings;
 pub use value::{Choice, Value};
 
@@ -72,6 +74,8 @@ pub enum Kind {
         /// Largest legal number.
         max: i64,
     },
+    /// Up to [`Numbers::MOST`] numbers.
+    Numbers,
 }
 
 /// How far one step of the panel goes on a real scale.
@@ -125,6 +129,7 @@ impl Param {
                 format!("{} | a number {least} to {most}", words.join(" | "))
             }
             Kind::WholeOrOff { min, max } => format!("off | {min} .. {max}"),
+            Kind::Numbers => format!("up to {} numbers", Numbers::MOST),
         }
     }
 
@@ -145,6 +150,7 @@ impl Param {
             },
             Kind::RealOr { words, .. } => word(words, text).or_else(|| text.parse().ok().map(Value::Real)),
             Kind::WholeOrOff { .. } => word(&["off"], text).or_else(|| text.parse().ok().map(Value::Whole)),
+            Kind::Numbers => Numbers::parse(text).map(Value::Numbers),
         };
         read.filter(|v| self.accepts(*v)).ok_or_else(|| self.refuse(text))
     }
@@ -170,7 +176,7 @@ impl Param {
             (Kind::Real { min, max, .. } | Kind::RealOr { min, max, .. }, Value::Real(x)) => (min..=max).contains(&x),
             (Kind::Choice(words) | Kind::RealOr { words, .. }, Value::Word(w)) => words.contains(&w),
             (Kind::WholeOrOff { .. }, Value::Word(w)) => w == "off",
-            (Kind::Switch, Value::Switch(_)) => true,
+            (Kind::Switch, Value::Switch(_)) | (Kind::Numbers, Value::Numbers(_)) => true,
             _ => false,
         }
     }
@@ -194,7 +200,10 @@ impl Param {
             }
             (Kind::Real { min, max, step }, Value::Real(x)) => Value::Real(step.from(x, steps).clamp(min, max)),
             (Kind::RealOr { min, max, .. }, Value::Real(x)) => {
-                Value::Real(Step::Times(1.122).from(x, steps).clamp(min.max(f64::MIN_POSITIVE), max))
+                let least = if min < 0.0 { min } else { min.max(f64::MIN_POSITIVE) };
+                // Up is up for negative numbers, too.
+                let steps = if x < 0.0 { -steps } else { steps };
+                Value::Real(Step::Times(1.122).from(x, steps).clamp(least, max))
             }
             (Kind::Choice(words) | Kind::RealOr { words, .. }, Value::Word(w)) => {
                 let at = words.iter().position(|x| *x == w).unwrap_or(0);
@@ -289,6 +298,16 @@ mod tests {
         assert!(message.contains("k = 0.1") && message.contains("0.5 .. 100"), "{message}");
         assert!(K.parse("nan").is_err());
         assert!(K.accept(Value::Whole(4)).is_ok_and(|v| v == Value::Real(4.0)));
+    }
+
+    #[test]
+    fn a_step_up_is_up_for_negative_numbers_too() {
+        let low = Param { kind: Kind::RealOr { words: &["off"], min: -1e300, max: 1e300 }, ..K };
+        let next = |steps| match low.step(Value::Real(-40.0), steps) {
+            Value::Real(x) => x,
+            other => panic!("{other}"),
+        };
+        assert!(next(1) > -40.0 && next(1) < -30.0 && next(-1) < -40.0 && next(-1) > -50.0);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Repair: what takes the place of an outlier. Section 8 of the methods page.
+//! Repair: what takes the place of an outlier. Section 8 of `docs/methods.md`.
 //!
 //! Detection and repair are separate choices. Adding a repair: a row in [`REPAIRS`] and, where it interpolates, a
 //! file `repair/your_repair.rs`.
@@ -242,6 +242,23 @@ pub fn repair(damage: &Damage<'_>, settings: &Settings, stop: &Stop) -> Result<V
     Ok(values)
 }
 
+/// The line between the accepted samples on both sides of each outlier, however long the run; NaN at the ends.
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for the result any more.
+pub fn line(damage: &Damage<'_>, stop: &Stop) -> Result<Vec<f64>, Stopped> {
+    let accepted = Accepted::of(damage, stop)?;
+    let mut values = Vec::with_capacity(damage.outliers.len());
+    for run in runs(damage.outliers) {
+        stop.check()?;
+        let at: Vec<f64> = damage.outliers[run.clone()].iter().map(|&i| damage.t[i]).collect();
+        let around = accepted.around(damage.outliers[run.start] - run.start);
+        let found = around.and_then(|a| linear::draw(&a, &at)).unwrap_or_else(|| vec![f64::NAN; at.len()]);
+        values.extend(found);
+    }
+    Ok(values)
+}
+
 /// `max_fill` as a limit.
 fn fill_limit(settings: &Settings) -> usize {
     match settings.whole(MAX_FILL.key) {
@@ -375,7 +392,7 @@ mod tests {
     fn a_repair_is_found_by_its_id_and_a_knob_matters_to_those_that_have_it() {
         assert_eq!(find("spline").unwrap().id, "spline");
         assert!(find("splin").unwrap_err().to_string().contains("did you mean spline?"));
-        // methods.md, section 8: what is removed is not filled; anchors are the spline's, order and points the
+        // `docs/methods.md`, section 8: what is removed is not filled; anchors are the spline's, order and points the
         // polynomial's.
         let matter = |method: &str| -> Vec<&str> {
             let settings = settings(&[("method", method)]);

@@ -14,6 +14,12 @@ pub enum Ruling {
     Normal,
 }
 
+impl serde::Serialize for Ruling {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.verdict().serialize(serializer)
+    }
+}
+
 impl Ruling {
     /// The verdict it amounts to.
     #[must_use]

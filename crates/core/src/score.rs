@@ -8,7 +8,7 @@ mod detail;
 
 pub use detail::{Events, FinalError, Part, RunLength, Scores, final_error};
 
-/// Hits and misses against a truth column, over all rows that it marks. Section 1 of the methods page.
+/// Hits and misses against a truth column, over all rows that it marks. Section 1 of `docs/methods.md`.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Score {
     /// Samples that the truth marks.

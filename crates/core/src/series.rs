@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::error::Error;
 use crate::interval::nominal_interval;
 
 /// Steps in one piece of parallel work.
@@ -60,6 +61,40 @@ impl<'a> Series<'a> {
         Self { rows: Some(Cow::Owned(rows)), t: Cow::Owned(t), y: Cow::Owned(y), interval }
     }
 
+    /// [`Series::new`] of slices that nobody has checked.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] when there are not as many values as times, or when the times do not increase.
+    pub fn checked(t: &'a [f64], y: &'a [f64]) -> Result<Self, Error> {
+        if t.len() != y.len() {
+            let what = format!("{} times and {} values", t.len(), y.len());
+            return Err(Error::usage(what, "give one value for each time, NaN where there is none"));
+        }
+        if u32::try_from(t.len()).is_err() {
+            return Err(Error::usage(format!("{} samples", t.len()), "give fewer than 2^32 at a time"));
+        }
+        let mut last = f64::NEG_INFINITY;
+        for (index, &time) in t.iter().enumerate().filter(|(i, time)| time.is_finite() && y[*i].is_finite()) {
+            if time <= last {
+                let what = format!("the time at index {index}, {time}, does not lie after the one before it, {last}");
+                return Err(Error::usage(what, "sort the samples by time and leave repeated times out"));
+            }
+            last = time;
+        }
+        Ok(Self::new(t, y))
+    }
+
+    /// The time of each row, from the first to that of the last sample; NaN for rows without a sample.
+    #[must_use]
+    pub fn seconds_of_rows(&self) -> Cow<'_, [f64]> {
+        let Some(rows) = self.rows.as_deref() else { return Cow::Borrowed(&self.t) };
+        let mut seconds = vec![f64::NAN; rows.last().map_or(0, |last| *last as usize + 1)];
+        for (&row, &time) in rows.iter().zip(self.t.iter()) {
+            seconds[row as usize] = time;
+        }
+        Cow::Owned(seconds)
+    }
+
     /// The same samples, owned; none when every row is present, in which case there is nothing to keep but the
     /// interval.
     #[must_use]
@@ -83,6 +118,23 @@ impl<'a> Series<'a> {
     pub fn borrowed(&self) -> Series<'_> {
         let rows = self.rows.as_deref().map(Cow::Borrowed);
         Series { rows, t: Cow::Borrowed(&self.t), y: Cow::Borrowed(&self.y), interval: self.interval }
+    }
+
+    /// The samples at `positions` (ascending; none: all of them), with the values of `y`, one for each sample of this
+    /// series, where it is given. Samples that are left out count as missing.
+    #[must_use]
+    pub fn seen(&'a self, positions: Option<&[u32]>, y: Option<&'a [f64]>) -> Series<'a> {
+        let y = y.unwrap_or(&self.y);
+        let Some(positions) = positions else {
+            let rows = self.rows.as_ref().map(|rows| Cow::Borrowed(rows.as_ref()));
+            return Series { rows, t: Cow::Borrowed(&self.t), y: Cow::Borrowed(y), interval: self.interval };
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "the loader refuses files of 2^32 rows and more")]
+        let rows = positions.iter().map(|&p| self.row(p as usize) as u32).collect();
+        let t: Vec<f64> = positions.iter().map(|&p| self.t[p as usize]).collect();
+        let y = positions.iter().map(|&p| y[p as usize]).collect();
+        let interval = nominal_interval(&t);
+        Series { rows: Some(Cow::Owned(rows)), t: Cow::Owned(t), y: Cow::Owned(y), interval }
     }
 
     /// How many samples are present.
@@ -128,6 +180,13 @@ impl<'a> Series<'a> {
     #[inline]
     pub fn before(&self, t: f64) -> usize {
         self.t.partition_point(|x| *x < t)
+    }
+
+    /// The longest step in seconds in which at most `max_gap` samples are lost; infinite for none.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+    pub fn longest_step(&self, max_gap: Option<usize>) -> f64 {
+        max_gap.map_or(f64::INFINITY, |most| (most as f64 + 1.5 - ROUNDING) * self.interval)
     }
 
     /// Samples lost between the one at `position` and the one before it; 0 for the first.
@@ -194,8 +253,10 @@ impl<'a> Series<'a> {
     }
 }
 
-/// Samples lost in a step of `dt` seconds at a nominal interval of `interval` seconds. The small constant keeps a
-/// tie a tie when the times of the file are rounded.
+/// Keeps a tie a tie when the times of a file are rounded, in nominal intervals.
+const ROUNDING: f64 = 1e-6;
+
+/// Samples lost in a step of `dt` seconds at a nominal interval of `interval` seconds.
 #[must_use]
 #[inline]
 pub fn lost_samples(dt: f64, interval: f64) -> usize {
@@ -203,7 +264,7 @@ pub fn lost_samples(dt: f64, interval: f64) -> usize {
     if dt < 1.49 * interval {
         return 0;
     }
-    let steps = dt / interval + 0.5 + 1e-6;
+    let steps = dt / interval + 0.5 + ROUNDING;
     // A cast from float rounds down, saturates, and takes NaN (fewer than two samples) to 0.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates as wanted")]
     let steps = steps as usize;
@@ -221,6 +282,19 @@ mod tests {
         let s = Series::new(&t, &y);
         assert_eq!((s.t.as_ref(), s.y.as_ref()), (&[0.0, 3.0, 4.0][..], &[5.0, 8.0, 9.0][..]));
         assert_eq!((s.row(1), s.position(3), s.position(2)), (3, Some(1), None));
+    }
+
+    #[test]
+    fn samples_that_are_left_out_are_missing_and_values_can_be_others() {
+        let t = [0.0, 1.0, 2.0, f64::NAN, 4.0, 5.0];
+        let y = [5.0, 6.0, 7.0, 7.5, 8.0, 9.0];
+        let whole = Series::new(&t, &y);
+        let part = whole.seen(Some(&[0, 1, 3]), None);
+        assert_eq!((part.t.as_ref(), part.y.as_ref()), (&[0.0, 1.0, 4.0][..], &[5.0, 6.0, 8.0][..]));
+        assert_eq!((part.row(2), part.position(2), part.interval), (4, None, 2.0));
+        let others = [1.0; 5];
+        let all = whole.seen(None, Some(&others));
+        assert_eq!((all.y.as_ref(), all.row(4), all.interval), (&others[..], 5, whole.interval));
     }
 
     #[test]
@@ -249,6 +323,18 @@ mod tests {
         assert_eq!(losses(0..t.len()), gaps);
         assert_eq!(losses(777..CHUNK + 1), [CHUNK - 1, CHUNK]);
         assert_eq!(s.segments(Some(5)).len(), gaps.len() + 1);
+    }
+
+    #[test]
+    fn the_longest_step_loses_no_more_than_it_may() {
+        let t = [0.0, 0.25, 0.5, 0.75];
+        let s = Series::new(&t, &t);
+        for most in [0, 1, 5, 1000] {
+            let longest = s.longest_step(Some(most));
+            assert_eq!(lost_samples(longest * (1.0 - 1e-9), s.interval), most);
+            assert_eq!(lost_samples(longest * (1.0 + 1e-9), s.interval), most + 1);
+        }
+        assert_eq!(s.longest_step(None), f64::INFINITY);
     }
 
     #[test]

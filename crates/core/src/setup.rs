@@ -3,6 +3,7 @@
 use crate::error::{Error, Result, nearest};
 use crate::method::{self, METHODS, Method};
 use crate::param::{Settings, find};
+use crate::preparation::Preparation;
 use crate::repair;
 
 /// The method when none is named.
@@ -19,6 +20,8 @@ pub struct Setup {
     pub rate: Option<String>,
     /// The knobs of repair, [`repair::PARAMS`].
     pub repair: Settings,
+    /// What is done with the channel before the method sees it.
+    pub preparation: Preparation,
 }
 
 impl std::fmt::Debug for Setup {
@@ -28,7 +31,21 @@ impl std::fmt::Debug for Setup {
             .field("settings", &self.settings)
             .field("rate", &self.rate)
             .field("repair", &self.repair)
+            .field("preparation", &self.preparation)
             .finish()
+    }
+}
+
+impl serde::Serialize for Setup {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct as _;
+        let mut out = serializer.serialize_struct("Setup", 5)?;
+        out.serialize_field("method", self.method.about().id)?;
+        out.serialize_field("settings", &self.settings)?;
+        out.serialize_field("rate", &self.rate)?;
+        out.serialize_field("repair", &self.repair)?;
+        out.serialize_field("preparation", &self.preparation)?;
+        out.end()
     }
 }
 
@@ -75,13 +92,31 @@ impl Setup {
     /// `method` with a preset and the default repair.
     #[must_use]
     pub fn new(method: &'static dyn Method, preset: Preset) -> Self {
-        Self { method, settings: preset.settings(method), rate: None, repair: Settings::defaults(repair::PARAMS) }
+        Self {
+            method,
+            settings: preset.settings(method),
+            rate: None,
+            repair: Settings::defaults(repair::PARAMS),
+            preparation: Preparation::default(),
+        }
     }
 
     /// True when both find the same outliers: they differ in the repair at most.
     #[must_use]
     pub fn same_detection(&self, other: &Self) -> bool {
+        self.same_method(other) && self.preparation == other.preparation
+    }
+
+    /// True when both ask the same of the same method, whatever is done with their channels before.
+    #[must_use]
+    pub fn same_method(&self, other: &Self) -> bool {
         self.method.about().id == other.method.about().id && self.settings == other.settings && self.rate == other.rate
+    }
+
+    /// The same with another preparation of the channel.
+    #[must_use]
+    pub fn prepared(self, preparation: &Preparation) -> Self {
+        Self { preparation: preparation.clone(), ..self }
     }
 
     /// True when this channel's detection depends on the other channels that share the setup.

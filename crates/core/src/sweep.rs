@@ -1,5 +1,5 @@
 //! Threshold advice: how many samples a method flags along one of its parameters, and where that count stands still
-//! (section 8a of the methods page). True wild points stand far off: between the noise and them lies a range of
+//! (section 8a of `docs/methods.md`). True wild points stand far off: between the noise and them lies a range of
 //! thresholds that all flag the same samples.
 
 use std::ops::Range;
@@ -37,7 +37,7 @@ const LENGTH: f64 = 1.5;
 pub struct Point {
     /// The value.
     pub value: f64,
-    /// Outliers.
+    /// Outliers by the method; those by checks before it are the same for every value.
     pub flagged: usize,
     /// Real outliers that are not flagged, where the truth is known (漏判).
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -139,7 +139,7 @@ pub fn sweep(
     let series = input.series;
     let base = Detection::of(input, first, stop)?;
     let rest = setups[1..].par_iter().map(|(value, one)| {
-        let detection = match base.regated(series, one, stop)? {
+        let detection = match base.regated(input, one, stop)? {
             Some(detection) => detection,
             None => Detection::of(input, one, stop)?,
         };
@@ -169,11 +169,14 @@ fn count(
     };
     let flagged = |at: usize| verdict[at] == Verdict::Outlier;
     let wild = |truth: &[bool], at: usize| truth.get(series.row(at)).copied().unwrap_or(false);
-    let mut point = Point { value, flagged: count(&flagged)?, missed: None, false_alarms: None };
+    let all = count(&flagged)?;
+    // What checks flag does not depend on any parameter of the method.
+    let by_checks = detection.objections().filter(|(_, verdict)| *verdict == Verdict::Outlier).count();
+    let mut point = Point { value, flagged: all - by_checks, missed: None, false_alarms: None };
     if let Some(truth) = truth {
         let hits = count(&|at| flagged(at) && wild(truth, at))?;
         point.missed = Some(count(&|at| wild(truth, at))? - hits);
-        point.false_alarms = Some(point.flagged - hits);
+        point.false_alarms = Some(all - hits);
     }
     Ok(point)
 }

@@ -2,7 +2,8 @@
 //!
 //! The modules are layers: each imports only from those listed before it in `tests/layers.rs`.
 
+pub mod error;
 pub mod session;
 pub mod track;
 
-use wildpoint_core::{analysis, error, memory, method, param, repair, review, stop};
+use wildpoint_core::{analysis, check, memory, method, param, repair, review, stop};

@@ -15,23 +15,29 @@ mod document;
 mod edit;
 pub mod flags;
 pub mod journal;
+mod position;
 mod replay;
 mod save;
+mod suggested;
 pub mod sweep;
 pub mod table;
 
-pub use analysis::{detect, detect_together, settle};
+pub use analysis::{Member, detect, detect_taught, detect_together, settle};
 pub use cleaned::{changes, clean_sha256, write_cleaned};
 pub use command_line::{clean_command, quoted, replay_command};
 pub use decisions::decisions;
 pub use digest::Digest;
 pub use document::{parse, read, render};
 pub use edit::Edit;
+pub use position::position_check;
 pub use replay::{Accepted, Analysed, Appended, Grown, Opened, check, open, open_all};
 pub use save::{document, document_without_record};
-pub use wildpoint_core::analysis::{Counts, Detection, Fill, Mark, Outcome, Place, Run};
+pub use suggested::{suggested, suggestions};
+pub use wildpoint_core::analysis::{Counts, Detection, Fill, Mark, Objected, Outcome, Place, Run};
 pub use wildpoint_core::ballot::{Agreement, Ballot, candidates};
+pub use wildpoint_core::preparation::{Preparation, is_period, parse_period};
 pub use wildpoint_core::setup::{DEFAULT_METHOD, Preset, Setup, method_of_id};
+pub use wildpoint_core::suggestions::{Remedy, Suggestion};
 
 /// A document: which data, what to do with which channel, and what came out when it was saved.
 #[derive(Debug, Clone)]

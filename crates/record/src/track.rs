@@ -48,6 +48,7 @@ mod wanted;
 mod waves;
 mod widen;
 
+pub use calendar::{DAY as NANOSECONDS_PER_DAY, SECONDS_PER_DAY};
 pub use cells::Cells;
 pub use checks::RowChecks;
 pub use extent::Extent;
@@ -67,7 +68,7 @@ pub use samples::Samples;
 pub use spool::{DASH, Spool};
 pub use standing::{Lost, Standing, covered};
 pub use targets::Target;
-pub(crate) use text::hex;
+pub use text::hex;
 pub use told::{TimeUnit, Worded};
 pub use wanted::Wanted;
 pub use widen::{NewColumn, widen};

@@ -84,6 +84,21 @@ fn settings(plan: &Plan, unit: &str) -> Table {
         plan.setup.settings.mattering().map(|(p, v)| row(p, v, &default, Some(&paper))).collect();
     let default = Settings::defaults(repair::PARAMS);
     rows.extend(plan.setup.repair.mattering().map(|(p, v)| row(p, v, &default, None)));
+    for check in &plan.setup.preparation.checks {
+        let (about, default) = (check.check.about(), Settings::defaults(check.settings.params()));
+        let on = if check.on { "on" } else { "off" };
+        let what = [&[on.to_owned()], check.channels.as_slice()].concat().join(" ");
+        rows.push(vec![about.id.to_owned(), what, String::new(), "check before the method".into(), about.help.into()]);
+        rows.extend(check.settings.mattering().map(|(p, v)| row(p, v, &default, None)));
+    }
+    if let Some(period) = plan.setup.preparation.period {
+        let help = "a circular channel: judged unwrapped, written wrapped";
+        rows.push(vec!["period".into(), period.to_string(), "channel units".into(), "set".into(), help.into()]);
+    }
+    if plan.setup.preparation.exclude_decided {
+        let help = "the method does not see what the analyst decided to be wild";
+        rows.push(vec!["exclude_decided".into(), "true".into(), String::new(), "set".into(), help.into()]);
+    }
     // Where the unit is that of the channel, it is known here.
     let known = rows.iter_mut().filter(|row| row[2] == "channel units" && !unit.is_empty());
     known.for_each(|row| unit.clone_into(&mut row[2]));

@@ -81,7 +81,10 @@ fn cells_of(e: &Evidence, time: String) -> Vec<String> {
             ("kept", _) => "kept".into(),
             (_, clean) => number(clean),
         },
-        if e.decided { "analyst" } else { "method" }.to_owned(),
+        match (&e.objected, e.decided) {
+            (Some(o), false) => format!("{}: {}", o.by, o.evidence),
+            _ => e.decided_by().to_owned(),
+        },
         e.note.clone(),
     ]
 }

@@ -89,7 +89,7 @@ pub(super) fn open(request: Request, keep: Option<Keep>, look: Look, stop: &Stop
     let track = load_while(&request.source, &request.options, wanted)?;
     let mut options = request.options;
     options.channels.clear();
-    let mut session = Session::new(&track, options, &Setup::standard());
+    let mut session = Session::new(&track, options, &Setup::standard()).with_suggestions(&track);
     let Some(keep) = keep else {
         return Ok(Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() }.model(look));
     };

@@ -17,6 +17,7 @@ use super::files;
 use super::open::Open;
 use crate::error::Error;
 use crate::session::journal::{Base, Entry, Header};
+use crate::track::hex;
 
 /// How often a file goes to the disk at most, and how long after a failure the next attempt is made.
 const PERIOD: Duration = Duration::from_secs(1);
@@ -246,7 +247,7 @@ impl Begin {
             let path = std::fs::canonicalize(path).unwrap_or_else(|_| path.clone());
             Base { sha256: sha256_of(&path), path }
         });
-        let session = base.as_ref().map(|b| hexadecimal(&Sha256::digest(b.path.as_os_str().as_encoded_bytes())));
+        let session = base.as_ref().map(|b| hex(&Sha256::digest(b.path.as_os_str().as_encoded_bytes())));
         let path = files::name(folder, &self.header.sha256, &session.unwrap_or_default());
         let header = Header { base, ..self.header.clone() };
         Open::create(path, &header, &self.entries)
@@ -270,9 +271,5 @@ pub(super) fn sha256_of(path: &Path) -> String {
             }
         }
     };
-    if read().is_err() { String::new() } else { hexadecimal(&sum.finalize()) }
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|b| format!("{b:02x}")).collect()
+    if read().is_err() { String::new() } else { hex(&sum.finalize()) }
 }

@@ -16,6 +16,7 @@ use super::glyphs::Glyphs;
 use super::paint::{Paint, right_of_margin};
 use super::pyramid::{Pyramid, Span};
 use super::scale::YScale;
+use crate::method::TIE;
 use crate::plot::residual_top;
 use crate::track::without_signed_zero;
 use crate::tui::theme::Theme;
@@ -79,7 +80,7 @@ impl ResidualPlot<'_> {
 
     /// A tie reaches the threshold.
     fn reaches(&self, ratio: f64) -> bool {
-        ratio.abs() >= self.threshold * (1.0 - 1e-9)
+        ratio.abs() >= self.threshold * (1.0 - TIE)
     }
 
     fn top(&self) -> f64 {

@@ -11,6 +11,7 @@ use super::paint::{Paint, right_of_margin};
 use super::pyramid::Span;
 use super::scale::YScale;
 use crate::plot::StepColumn;
+use crate::track::SECONDS_PER_DAY;
 use crate::tui::theme::Theme;
 
 /// The widget of step sizes: the shortest to the longest step of each column. A column in which samples are lost has
@@ -97,7 +98,7 @@ fn scale_mask(scale: YScale, span: Span, row: u16) -> u8 {
 /// A number of seconds in at most seven columns.
 fn seconds(value: f64) -> String {
     let text = match value {
-        v if v >= 86_400.0 * 2.0 => format!("{:.1} d", v / 86_400.0),
+        v if v >= SECONDS_PER_DAY * 2.0 => format!("{:.1} d", v / SECONDS_PER_DAY),
         v if v >= 7200.0 => format!("{:.1} h", v / 3600.0),
         v if v >= 100.0 => format!("{v:.0} s"),
         v if v >= 0.1 => format!("{v:.2} s"),

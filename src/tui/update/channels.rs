@@ -23,15 +23,16 @@ pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
     })
 }
 
-/// Gives all other channels the method, the settings and the repair of the one on the screen. The rate channel is
-/// each channel's own.
+/// Gives all other channels the method, the settings and the repair of the one on the screen. The rate channel, and
+/// what is done before the method, is each channel's own.
 pub(super) fn settings_to_all(model: &mut Model) -> Vec<Effect> {
     let shown = model.shown;
     let source = model.plan().setup.clone();
     let others = model.session.plans.iter().enumerate().filter(|(plan, _)| *plan != shown);
     let (mut edits, mut without_rate) = (Vec::new(), Vec::new());
     for (plan, other) in others {
-        let after = Setup { rate: other.setup.rate.clone(), ..source.clone() };
+        let after =
+            Setup { rate: other.setup.rate.clone(), preparation: other.setup.preparation.clone(), ..source.clone() };
         if source.method.about().needs_rate && after.rate.is_none() {
             without_rate.push(printable(&other.channel));
         }

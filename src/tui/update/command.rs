@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use super::super::message::{Effect, OutputKind};
 use super::super::model::{Model, Tone};
 use super::files::default_report;
-use super::{Action, act, command_line, dialog, files, jump, pictures, record, review, show, tune};
+use super::{Action, act, checks, command_line, dialog, files, jump, pictures, record, review, show, tune};
+use crate::check::CHECKS;
 use crate::error::nearest;
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
@@ -77,6 +78,10 @@ pub static COMMANDS: &[Command] = &[
         "paper" => Ok(tune::use_preset(m, Preset::Paper)),
         other => Err(format!("{other}: presets are default and paper")),
     }),
+    command("check", "ID[:KEY=VALUE,...]", "make a check before the method", checks::add),
+    command("uncheck", "ID|all", "make a check no more", checks::take_away),
+    command("period", "P|off", "the period of a circular channel: 360, 24, 2pi", checks::set_period),
+    command("position", "LAT,LON[,HEIGHT]", "channels that are one position, checked for its speed", checks::position),
     command("channel", "NAME", "show another channel", channel),
     command("goto", "TIME|#ROW|...", "put the cursor on a time or a row, or what / takes", |m, a| {
         jump::jump(m, a).map(|()| Vec::new())
@@ -138,6 +143,8 @@ pub(super) fn complete(model: &Model, line: &str) -> Option<String> {
         "repair" => REPAIRS.iter().map(|r| r.id.to_owned()).collect(),
         "y" => ["kept", "all", "robust", "fixed"].map(String::from).to_vec(),
         "preset" => vec!["default".into(), "paper".into()],
+        "check" => CHECKS.iter().map(|c| c.about().id.to_owned()).collect(),
+        "uncheck" => setup.preparation.checks.iter().map(|c| c.id().to_owned()).chain(["all".into()]).collect(),
         "channel" => model.session.plans.iter().map(|p| p.channel.clone()).collect(),
         _ => return None,
     };

@@ -1,7 +1,7 @@
 //! Edits in few words: for the footer, and for the journal panel.
 
 use super::super::model::Model;
-use super::tune;
+use super::{checks, tune};
 use crate::review::Change;
 use crate::session::{Edit, Setup};
 use crate::track::printable;
@@ -69,6 +69,7 @@ fn setup(before: &Setup, after: &Setup) -> String {
             let name = |rate: &Option<String>| rate.as_deref().map_or_else(|| "none".into(), printable);
             format!("rate {} → {}", name(&before.rate), name(&after.rate))
         }
+        None if before.preparation != after.preparation => checks::describe(&before.preparation, &after.preparation),
         None => format!("settings of {to}"),
     }
 }

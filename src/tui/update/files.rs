@@ -9,7 +9,7 @@ use super::super::message::{Effect, OutputKind, Written};
 use super::super::model::{Dialog, Model, Overlay, PromptKind, Tone};
 use super::super::plot::ResidualPlot;
 use super::{dialog, prompt, queue};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, on_one_line};
 use crate::plot::Drawn;
 use crate::session::folder_of;
 use crate::track::Source;
@@ -89,7 +89,7 @@ pub(super) fn written(model: &mut Model, what: &Written, path: &Path, result: Re
         Err(e) => {
             model.then_open = None;
             let failed = if matches!(what, Written::Session { .. }) { "not saved" } else { "not written" };
-            model.say(Tone::Error, format!("{failed}: {}", e.to_string().replace("\n  ", "; ")));
+            model.say(Tone::Error, format!("{failed}: {}", on_one_line(&e)));
             Vec::new()
         }
     }

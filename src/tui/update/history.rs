@@ -48,7 +48,7 @@ fn alike(model: &Model, edit: &Edit) -> Vec<usize> {
     for part in edit.parts() {
         let Edit::Setup { before, after, .. } = part else { continue };
         for setup in [before, after].into_iter().filter(|s| s.together()) {
-            let same = |(_, plan): &(usize, &crate::session::Plan)| plan.setup.same_detection(setup);
+            let same = |(_, plan): &(usize, &crate::session::Plan)| plan.setup.same_method(setup);
             found.extend(model.session.plans.iter().enumerate().filter(same).map(|(i, _)| i));
         }
     }

@@ -3,7 +3,7 @@
 use super::super::find::Query;
 use super::super::model::{Model, Tone};
 use super::navigate;
-use crate::track::printable;
+use crate::track::{SECONDS_PER_DAY, printable};
 
 /// The forms of a jump: what can be typed, and where it leads.
 pub static FORMS: &[(&str, &str)] = &[
@@ -116,7 +116,7 @@ fn relative(model: &Model, text: &str) -> Option<usize> {
         "ms" => 1e-3,
         "m" | "min" => 60.0,
         "h" => 3600.0,
-        "d" => 86_400.0,
+        "d" => SECONDS_PER_DAY,
         _ => return None,
     };
     let by = number.trim().parse::<f64>().ok().filter(|x| x.is_finite())? * unit;

@@ -7,6 +7,7 @@ use super::super::files::Task;
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
 use super::{dialog, files, journal, jump, note, palette, pictures, recover, set_up, show, tune};
+use crate::error::on_one_line;
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
 use crate::track::printable;
@@ -212,7 +213,7 @@ fn type_in(model: &mut Model, mut prompt: Prompt, key: KeyEvent) -> Vec<Effect> 
         (KeyCode::Enter, _) => match entered(model, &mut prompt) {
             Ok(Some(effects)) => return effects,
             Ok(None) => {}
-            Err(error) => prompt.error = Some(error.replace("\n  ", "; ")),
+            Err(error) => prompt.error = Some(on_one_line(&error)),
         },
         (KeyCode::Tab, _) if command => palette::complete(model, &mut prompt),
         (KeyCode::Down, _) if command => palette::walk(model, &mut prompt, true),

@@ -6,6 +6,7 @@ use super::super::message::Effect;
 use super::super::model::{Model, Prompt};
 use super::act;
 use super::command::{self, COMMANDS, Command};
+use crate::check::CHECKS;
 use crate::method::METHODS;
 use crate::param::{Kind, Param};
 use crate::repair::REPAIRS;
@@ -95,6 +96,8 @@ fn following(model: &Model, name: &str, rest: &str) -> Vec<Suggestion> {
         "method" => METHODS.iter().map(|m| word(m.about().id, m.about().name)).collect(),
         "repair" => REPAIRS.iter().map(|r| word(r.id, r.help)).collect(),
         "preset" => vec![word("default", "values that work on real tracks"), word("paper", "as the documents have it")],
+        "check" => return checks(rest),
+        "uncheck" => plan.setup.preparation.checks.iter().map(|c| word(c.id(), &c.to_string())).collect(),
         "channel" => model.session.plans.iter().map(|p| (p.channel.clone(), channel_help(model, &p.channel))).collect(),
         "goto" => super::jump::FORMS.iter().map(|(form, help)| word(form, help)).collect(),
         _ => return Vec::new(),
@@ -118,6 +121,18 @@ fn following(model: &Model, name: &str, rest: &str) -> Vec<Suggestion> {
         Suggestion { line: format!("{name} {word}"), name: printable(&word), keys, help, take: Take::Run }
     };
     ranked.into_iter().map(entry).collect()
+}
+
+/// Checks, each to be completed with its settings.
+fn checks(rest: &str) -> Vec<Suggestion> {
+    let abouts: Vec<_> = CHECKS.iter().map(|check| check.about()).collect();
+    let entry = |i: usize| {
+        let about = abouts[i];
+        let keys: Vec<&str> = about.params.iter().map(|p| p.key).collect();
+        let line = format!("check {}:", about.id);
+        Suggestion { name: about.id.into(), keys: keys.join(" "), help: about.help.into(), line, take: Take::Fill }
+    };
+    ranked(rest, abouts.iter().map(|a| (a.id, a.help))).into_iter().map(entry).collect()
 }
 
 fn channel_help(model: &Model, name: &str) -> String {
@@ -171,7 +186,7 @@ fn values(
         Kind::Choice(words) | Kind::RealOr { words, .. } => words,
         Kind::Switch => &["true", "false"],
         Kind::WholeOrOff { .. } => &["off"],
-        Kind::Whole { .. } | Kind::Real { .. } => &[],
+        Kind::Whole { .. } | Kind::Real { .. } | Kind::Numbers => &[],
     };
     words.iter().for_each(|word| add((*word).to_owned(), String::new()));
     for (steps, help) in [(-1, "one step down"), (1, "one step up")] {

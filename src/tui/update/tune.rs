@@ -4,7 +4,8 @@ use super::super::action::Action;
 use super::super::advice::BY_ITSELF;
 use super::super::message::Effect;
 use super::super::model::{Knob, Model, PickerKind, PromptKind, Tone};
-use super::{list_of, picker, prompt, set_up};
+use super::{checks, list_of, picker, prompt, set_up};
+use crate::error::on_one_line;
 use crate::method::{METHODS, Method};
 use crate::param::{Settings, Value};
 use crate::session::sweep::multiplier;
@@ -30,7 +31,8 @@ pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
 
 /// The single knob by which two setups differ, with its values; none when they differ in more, or in the method.
 pub(super) fn knob_between(before: &Setup, after: &Setup) -> Option<(&'static str, String, String)> {
-    if before.method.about().id != after.method.about().id || before.rate != after.rate {
+    let other = before.rate != after.rate || before.preparation != after.preparation;
+    if before.method.about().id != after.method.about().id || other {
         return None;
     }
     let of = |a: &Settings, b: &Settings, repair: bool| {
@@ -50,6 +52,7 @@ pub(in crate::tui) fn value_text(setup: &Setup, knob: Knob) -> String {
         Knob::Rate => setup.rate.clone().unwrap_or_else(|| "(none)".into()),
         Knob::Detection(p) => setup.settings.get(p.key).map(|v| v.to_string()).unwrap_or_default(),
         Knob::Repair(p) => setup.repair.get(p.key).map(|v| v.to_string()).unwrap_or_default(),
+        Knob::Check(..) | Knob::OfCheck(..) | Knob::Period | Knob::ExcludeDecided => checks::value_text(setup, knob),
     }
 }
 
@@ -57,19 +60,28 @@ fn value(setup: &Setup, knob: Knob) -> Option<Value> {
     match knob {
         Knob::Detection(p) => setup.settings.get(p.key),
         Knob::Repair(p) => setup.repair.get(p.key),
-        Knob::Method | Knob::Rate => None,
+        Knob::OfCheck(i, p) => setup.preparation.checks.get(i).and_then(|check| check.settings.get(p.key)),
+        _ => None,
     }
 }
 
-fn with_value(setup: &Setup, knob: Knob, value: Value) -> Setup {
+/// The setup with another value of a knob.
+///
+/// # Errors
+/// What is wrong with the value: a check that could not object to anything, say.
+fn with_value(setup: &Setup, knob: Knob, value: Value) -> Result<Setup, String> {
     let mut after = setup.clone();
-    // The value comes from the parameter itself, so that it is always accepted.
-    let _ = match knob {
+    match knob {
         Knob::Detection(p) => after.settings.set(p.key, p.key, value),
         Knob::Repair(p) => after.repair.set(p.key, p.key, value),
-        Knob::Method | Knob::Rate => Ok(()),
-    };
-    after
+        Knob::OfCheck(i, p) => match after.preparation.checks.get_mut(i) {
+            Some(check) => check.set(p.key, value).and_then(|()| check.verify()),
+            None => Ok(()),
+        },
+        _ => Ok(()),
+    }
+    .map_err(|e| on_one_line(&e))?;
+    Ok(after)
 }
 
 pub(super) fn step(model: &mut Model, steps: i64) -> Vec<Effect> {
@@ -83,14 +95,22 @@ pub(super) fn step(model: &mut Model, steps: i64) -> Vec<Effect> {
             use_method(model, METHODS[next])
         }
         Knob::Rate => picker(model, super::PickerKind::Rate),
-        Knob::Detection(param) | Knob::Repair(param) => {
+        Knob::Check(..) | Knob::Period | Knob::ExcludeDecided => checks::step(model, knob, forward),
+        Knob::Detection(param) | Knob::Repair(param) | Knob::OfCheck(_, param) => {
             let Some(now) = value(&setup, knob) else { return Vec::new() };
             let next = param.step(now, steps);
             if next == now {
                 model.say(Tone::Warning, format!("{} ends at {now} ({})", param.key, param.range()));
                 return Vec::new();
             }
-            let effects = set_up(model, with_value(&setup, knob, next));
+            let after = match with_value(&setup, knob, next) {
+                Ok(after) => after,
+                Err(why) => {
+                    model.say(Tone::Warning, why);
+                    return Vec::new();
+                }
+            };
+            let effects = set_up(model, after);
             model.say(Tone::Done, format!("{} {now} → {next} · {} undo", knob.name(), model.key(Action::Undo)));
             effects
         }
@@ -111,10 +131,11 @@ pub(super) fn choose(model: &mut Model, by: isize) -> Vec<Effect> {
 
 pub(super) fn type_value(model: &mut Model) -> Vec<Effect> {
     let knob = model.knob();
-    match list_of(knob) {
-        Some(kind) => picker(model, kind),
+    match (list_of(knob), knob) {
+        (Some(kind), _) => picker(model, kind),
+        (None, Knob::Check(..) | Knob::ExcludeDecided) => checks::switch(model, knob),
         // The value now stands in the prompt's words: what is typed takes its place.
-        None => prompt(model, PromptKind::Value, ""),
+        (None, _) => prompt(model, PromptKind::Value, ""),
     }
 }
 
@@ -122,12 +143,13 @@ pub(super) fn type_value(model: &mut Model) -> Vec<Effect> {
 pub(super) fn set_value(model: &mut Model, text: &str) -> Result<Vec<Effect>, String> {
     let knob = model.knob();
     match knob {
-        Knob::Detection(p) | Knob::Repair(p) => {
+        Knob::Detection(p) | Knob::Repair(p) | Knob::OfCheck(_, p) => {
             let value = p.parse(text).map_err(|e| e.to_string())?;
-            let after = with_value(&model.plan().setup, knob, value);
+            let after = with_value(&model.plan().setup, knob, value)?;
             Ok(set_up(model, after))
         }
-        Knob::Method | Knob::Rate => Ok(Vec::new()),
+        Knob::Period => checks::set_period(model, text),
+        Knob::Method | Knob::Rate | Knob::Check(..) | Knob::ExcludeDecided => Ok(Vec::new()),
     }
 }
 
@@ -145,13 +167,21 @@ pub(super) fn set_key(model: &mut Model, key: &str, text: &str) -> Result<Vec<Ef
 pub(super) fn to_default(model: &mut Model) -> Vec<Effect> {
     let knob = model.knob();
     match knob {
-        Knob::Detection(p) | Knob::Repair(p) => {
-            let after = with_value(&model.plan().setup, knob, p.default);
-            let effects = set_up(model, after);
-            model.say(Tone::Done, format!("{} at its default, {}", knob.name(), p.default));
-            effects
+        Knob::Detection(p) | Knob::Repair(p) | Knob::OfCheck(_, p) => {
+            match with_value(&model.plan().setup, knob, p.default) {
+                Ok(after) => {
+                    let effects = set_up(model, after);
+                    model.say(Tone::Done, format!("{} at its default, {}", knob.name(), p.default));
+                    effects
+                }
+                Err(why) => {
+                    model.say(Tone::Warning, why);
+                    Vec::new()
+                }
+            }
         }
-        Knob::Method | Knob::Rate => Vec::new(),
+        Knob::Check(index, _) => checks::remove(model, index),
+        Knob::Method | Knob::Rate | Knob::Period | Knob::ExcludeDecided => Vec::new(),
     }
 }
 
@@ -242,7 +272,7 @@ pub(super) fn take_suggestion(model: &mut Model) -> Vec<Effect> {
                 vec![Effect::Advise(plan)]
             }
             Err(e) => {
-                model.say(Tone::Warning, e.to_string().replace("\n  ", "; "));
+                model.say(Tone::Warning, on_one_line(&e));
                 Vec::new()
             }
         };

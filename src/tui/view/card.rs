@@ -150,7 +150,10 @@ fn measured(model: &Model, series: &Series<'_>, i: usize, narrow: bool) -> Vec<V
     if let Some(drawn) = &model.state().drawn {
         let judged = &drawn.outcome.detection.judged;
         match judged.expected().get(i) {
-            Some(p) if p.is_finite() => item(if narrow { "exp" } else { "expected" }, short(*p)),
+            Some(p) if p.is_finite() => {
+                let p = drawn.outcome.detection.written(*p);
+                item(if narrow { "exp" } else { "expected" }, short(p));
+            }
             _ => item("expected", "none".into()),
         }
         if let Some(h) = judged.tolerance(i).filter(|h| *h > 0.0) {
@@ -180,8 +183,11 @@ fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>, nar
     let verdict = judged.verdict().get(i).copied().unwrap_or(Verdict::Missing);
     // In fewer words where they would run out of the panel: half a word looks like a whole one.
     let says = if narrow { ":" } else { " says" };
-    let method = format!("  {}{says} {}", drawn.outcome.detection.setup.method.about().id, verdict.word());
+    let method = format!("  {}{says} {}", drawn.outcome.detection.by(i), verdict.word());
     let mut said = vec![method];
+    if let Some(objected) = drawn.outcome.detection.objected(i) {
+        said.push(format!(": {}", objected.evidence));
+    }
     if let Some(d) = judged.directions().get(i) {
         let (forth, back) = if narrow { ("fwd", "bwd") } else { ("forward", "backward") };
         let both = [(forth, d.forward), (back, d.backward)];

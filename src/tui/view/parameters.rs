@@ -73,9 +73,12 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         let changed = match knob {
             Knob::Detection(p) => setup.settings.get(p.key) != Some(p.default),
             Knob::Repair(p) => setup.repair.get(p.key) != Some(p.default),
-            Knob::Method | Knob::Rate => false,
+            Knob::OfCheck(i, p) => {
+                setup.preparation.checks.get(*i).is_some_and(|c| c.settings.get(p.key) != Some(p.default))
+            }
+            _ => false,
         };
-        let name_style = if matches!(knob, Knob::Method) || knob.name() == "repair" { theme.title } else { theme.dim };
+        let name_style = if knob.begins_group() { theme.title } else { theme.dim };
         let value = if index == active { format!("‹ {value} ›") } else { format!("  {value}") };
         let value_style = if index == active {
             theme.focus
@@ -84,10 +87,7 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         } else {
             theme.text
         };
-        let unit = match knob {
-            Knob::Detection(p) | Knob::Repair(p) => p.unit,
-            Knob::Method | Knob::Rate => "",
-        };
+        let unit = knob.param().map_or("", |p| p.unit);
         let line = Line::from(vec![
             Span::styled(format!("{:15}", fit(knob.name(), 14)), name_style),
             Span::styled(value, value_style),
@@ -128,7 +128,7 @@ fn blocks(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
         blocks.extend(advice.clone());
     }
     if model.focus == Panel::Parameters
-        && let Knob::Detection(p) | Knob::Repair(p) = model.knob()
+        && let Some(p) = model.knob().param()
     {
         let paper = p.paper.map_or(String::new(), |v| format!(", paper {v}"));
         let mut help = vec![(String::new(), false)];

@@ -7,7 +7,7 @@ use crate::method::Verdict;
 use crate::review::Ruling;
 
 /// A sample that somebody has something to say about.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub struct Mark {
     /// Position among the present samples.
     pub position: u32,
@@ -39,7 +39,7 @@ impl Mark {
 }
 
 /// Consecutive outliers, within a segment.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub struct Run {
     /// Position of the first.
     pub start: usize,
@@ -48,7 +48,7 @@ pub struct Run {
 }
 
 /// A missing sample that is filled.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Fill {
     /// Where it goes.
     pub place: Place,
@@ -59,7 +59,7 @@ pub struct Fill {
 }
 
 /// Where a filled sample goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 pub enum Place {
     /// The empty cell of this row (from 0).
     Cell(usize),
@@ -97,6 +97,9 @@ pub struct Counts {
     pub missing: usize,
     /// Outliers that hold.
     pub flagged: usize,
+    /// Those of them that a check failed.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub by_checks: usize,
     /// Outliers alone.
     pub isolated: usize,
     /// Runs of two and more.
@@ -115,6 +118,11 @@ pub struct Counts {
     pub decisions: usize,
     /// Decisions that the method contradicts.
     pub conflicts: usize,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+fn is_zero(n: &usize) -> bool {
+    *n == 0
 }
 
 impl Outcome {

@@ -1,4 +1,4 @@
-//! Gains of the alpha-beta-gamma filter: section 4 of the methods page, \[001\] eqs. (23)-(25).
+//! Gains of the alpha-beta-gamma filter: section 4 of `docs/methods.md`, \[001\] eqs. (23)-(25).
 
 /// Gains of position, velocity and acceleration; the latter two are divided by the step and its square when they
 /// are applied.

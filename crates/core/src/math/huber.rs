@@ -1,9 +1,7 @@
 //! Huber's scale over the latest residuals, step by step: \[001\] eqs. (27)-(34).
 
+use super::tie::TIE;
 use statrs::distribution::{Continuous, ContinuousCDF, Normal};
-
-/// Two values within this fraction of a limit count as equal to it: such a value does not exceed the limit.
-const TIE: f64 = 1e-9;
 
 /// How residuals beyond c scales enter the next scale.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Five-point prediction with an adaptive limit: section 4 of the methods page, \[001\] eqs. (27)-(34).
+//! Five-point prediction with an adaptive limit: section 4 of `docs/methods.md`, \[001\] eqs. (27)-(34).
 
 use super::predictor::{self, Answer, Batch, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
 use super::{About, Judged, Method, Own, Segment, reaches, shared};

@@ -1,4 +1,4 @@
-//! Alpha-beta-gamma filter: section 4 of the methods page, \[001\] eqs. (23)-(26).
+//! Alpha-beta-gamma filter: section 4 of `docs/methods.md`, \[001\] eqs. (23)-(26).
 
 use super::predictor::{self, Answer, Batch, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
 use super::{About, Judged, Method, Own, Segment, Way, reaches, shared};

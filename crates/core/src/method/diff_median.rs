@@ -10,7 +10,7 @@ use crate::math::pieces::{self, PIECE};
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
-/// The method `diff-median` of section 5 of the methods page.
+/// The method `diff-median` of section 5 of `docs/methods.md`.
 #[derive(Debug, Clone, Copy)]
 pub struct DiffMedian;
 
@@ -189,7 +189,7 @@ mod tests {
 
     fn judged(y: &[f64], sigma: f64, change: &[(&str, Value)]) -> Judged {
         let t: Vec<f64> = (0..y.len()).map(|i| i as f64).collect();
-        let segment = Segment { t: &t, y, interval: 1.0, sigma, floor: 0.0, rate: None };
+        let segment = Segment { t: &t, y, interval: 1.0, sigma, floor: 0.0, floors: &[], objections: &[], rate: None };
         let mut settings = Settings::defaults(&PARAMS);
         change.iter().for_each(|(key, value)| settings.set("diff-median", key, *value).unwrap());
         DiffMedian.judge(&segment, &settings, &Stop::never()).unwrap()

@@ -1,4 +1,4 @@
-//! Five-point linear prediction: section 4 of the methods page, \[001\] section 3.
+//! Five-point linear prediction: section 4 of `docs/methods.md`, \[001\] section 3.
 
 use super::predictor::{self, Answer, Batch, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
 use super::verdict::TIE;

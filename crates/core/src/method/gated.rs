@@ -30,6 +30,8 @@ pub struct Gated {
     scores: Arc<Judged>,
     /// The multiplier, and what it makes of the scores, where it only gates.
     gate: Option<Gate>,
+    /// What is said of samples that the method did not see: position and verdict.
+    unseen: Arc<[(u32, Verdict)]>,
 }
 
 #[derive(Debug, Clone)]
@@ -49,7 +51,19 @@ impl Gated {
             judged.tolerance = Vec::new();
             Gate { k, verdict: std::mem::take(&mut judged.verdict), still: Vec::new() }
         });
-        Self { scores: Arc::new(judged), gate }
+        Self { scores: Arc::new(judged), gate, unseen: Arc::default() }
+    }
+
+    /// The same with the verdicts of samples that the method did not see, by position; they stay when the multiplier
+    /// is turned.
+    #[must_use]
+    pub fn with_unseen(mut self, unseen: Vec<(u32, Verdict)>) -> Self {
+        self.unseen = unseen.into();
+        match &mut self.gate {
+            Some(gate) => put(&self.unseen, &mut gate.verdict),
+            None => put(&self.unseen, &mut Arc::make_mut(&mut self.scores).verdict),
+        }
+        self
     }
 
     /// The same scores under another multiplier: what [`Judged::gate`] gives, to the last bit. None where the
@@ -75,7 +89,9 @@ impl Gated {
             }
             Ok(())
         })?;
-        Ok(Some(Self { scores: Arc::clone(&self.scores), gate: Some(Gate { k, verdict, still }) }))
+        put(&self.unseen, &mut verdict);
+        let (scores, unseen) = (Arc::clone(&self.scores), Arc::clone(&self.unseen));
+        Ok(Some(Self { scores, gate: Some(Gate { k, verdict, still }), unseen }))
     }
 
     /// True when both gate the same scores.
@@ -142,6 +158,15 @@ impl Gated {
     }
 }
 
+/// Puts verdicts in their places.
+fn put(verdicts: &[(u32, Verdict)], all: &mut [Verdict]) {
+    for (position, verdict) in verdicts {
+        if let Some(place) = all.get_mut(*position as usize) {
+            *place = *verdict;
+        }
+    }
+}
+
 /// Gates a block; gives the multipliers between which its verdicts stay as they are.
 fn gate_block(verdict: &mut [Verdict], y: &[f64], expected: &[f64], scale: &[f64], k: f64) -> (f64, f64) {
     let (mut low, mut high) = (0.0, f64::INFINITY);
@@ -204,6 +229,20 @@ mod tests {
         let (low, high) = gate_block(&mut verdict, &y, &expected, &scale, 5.0);
         assert_eq!(verdict, [Verdict::Normal, Verdict::Normal, Verdict::Outlier]);
         assert!((low - 3.0).abs() < 1e-5 && (high - 10.0).abs() < 1e-4 && low > 3.0 && high < 10.0);
+    }
+
+    #[test]
+    fn what_is_said_of_unseen_samples_stays_when_the_multiplier_is_turned() {
+        let y = [0.0, 3.5, 9.0];
+        let (expected, scale) = (vec![0.0, 0.0, f64::NAN], vec![1.0, 1.0, f64::NAN]);
+        let judged = Judged::gated(&y, expected, scale, 4.0, &Stop::never()).unwrap();
+        let (n, o, s) = (Verdict::Normal, Verdict::Outlier, Verdict::Suspect);
+        let gated = Gated::new(judged.clone(), Some(4.0)).with_unseen(vec![(2, s)]);
+        assert_eq!(gated.verdict(), [n, n, s]);
+        let turned = gated.regated(&y, 3.0, &Stop::never()).unwrap().unwrap();
+        assert_eq!(turned.verdict(), [n, o, s]);
+        let plain = Judged { scale: Vec::new(), ..judged };
+        assert_eq!(Gated::new(plain, None).with_unseen(vec![(0, s)]).verdict(), [s, n, Verdict::Unchecked]);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use crate::math::moments::Moments;
 use crate::param::{Kind, Param, Settings, Step, Value, always};
 use crate::stop::{Stop, Stopped};
 
-/// The method `gesd` of section 2 of the methods page (beyond the documents; Rosner 1983).
+/// The method `gesd` of section 2 of `docs/methods.md` (beyond the documents; Rosner 1983).
 #[derive(Debug, Clone, Copy)]
 pub struct Gesd;
 
@@ -224,7 +224,12 @@ mod tests {
         for (name, shape) in shapes {
             let y: Vec<f64> = (0..3000).map(shape).collect();
             let series = Series::new(&t, &y);
-            let segment = Segment::of(&series, &(0..3000), Scales { sigma: 0.0, floor: 0.0 }, None);
+            let segment = Segment::of(
+                &series,
+                &(0..3000),
+                &Scales { sigma: 0.0, floor: 0.0, floors: None, objections: None },
+                None,
+            );
             let survivors = Survivors { residual: &y, position: &[], segment: &segment, zero: 0.0 };
             let mut flagged = rosner.pass(&survivors, &Stop::never()).unwrap().flagged;
             flagged.sort_unstable();
@@ -237,7 +242,8 @@ mod tests {
         let y: Vec<f64> = (0..4000).map(|i| (1..=12).map(|k| (f64::from(i * k) * 0.618_034).fract()).sum()).collect();
         let t: Vec<f64> = (0..4000).map(f64::from).collect();
         let series = Series::new(&t, &y);
-        let segment = Segment::of(&series, &(0..4000), Scales { sigma: 0.0, floor: 0.0 }, None);
+        let segment =
+            Segment::of(&series, &(0..4000), &Scales { sigma: 0.0, floor: 0.0, floors: None, objections: None }, None);
         let survivors = Survivors { residual: &y, position: &[], segment: &segment, zero: 0.0 };
         let critical = Critical::new(0.05, true).at(2601);
         let mut removals = Removals::new(&y, &Stop::never()).unwrap();

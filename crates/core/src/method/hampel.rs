@@ -5,7 +5,7 @@ use super::{About, Judged, Method, Own, Segment, shared};
 use crate::param::{Param, Settings};
 use crate::stop::{Stop, Stopped};
 
-/// The method `hampel` of section 3 of the methods page (beyond the documents; Hampel 1974).
+/// The method `hampel` of section 3 of `docs/methods.md` (beyond the documents; Hampel 1974).
 #[derive(Debug, Clone, Copy)]
 pub struct Hampel;
 

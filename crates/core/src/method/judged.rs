@@ -276,7 +276,8 @@ mod tests {
     #[test]
     fn samples_lost_before_one_are_counted_from_the_one_before() {
         let t = [0.0, 1.0, 4.0];
-        let segment = Segment { t: &t, y: &t, interval: 1.0, sigma: 0.0, floor: 0.5, rate: None };
+        let segment =
+            Segment { t: &t, y: &t, interval: 1.0, sigma: 0.0, floor: 0.5, floors: &[], objections: &[], rate: None };
         assert_eq!([0, 1, 2].map(|i| segment.lost_before(i)), [0, 0, 2]);
         assert!(!segment.is_empty() && Segment { t: &[], y: &[], ..segment }.is_empty());
     }

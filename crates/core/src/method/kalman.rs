@@ -1,4 +1,4 @@
-//! Kalman innovation test with infill: section 7 of the methods page, \[004\].
+//! Kalman innovation test with infill: section 7 of `docs/methods.md`, \[004\].
 
 use super::predictor::{Engine, Page, feed};
 use super::{About, Damaged, Judged, Method, Own, Segment, Together, Verdict, Way, shared};

@@ -1,4 +1,4 @@
-//! Matched measurements: section 4 of the methods page, \[001\] eqs. (35)-(41).
+//! Matched measurements: section 4 of `docs/methods.md`, \[001\] eqs. (35)-(41).
 
 use std::ops::Range;
 
@@ -151,7 +151,8 @@ mod tests {
         (0..y.len()).for_each(|i| y[i] += 1e6 + noise(i));
         (120..126).for_each(|i| y[i] += 3.0);
         let rate = Some(Rate { t: &t, y: &speed });
-        let segment = Segment { t: &t, y: &y, interval: 0.5, sigma: 0.0, floor: 0.0, rate };
+        let segment =
+            Segment { t: &t, y: &y, interval: 0.5, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate };
         let judged = Matched.judge(&segment, &Settings::defaults(PARAMS), &Stop::never())?;
         let flagged: Vec<usize> = (0..y.len()).filter(|&i| judged.verdict[i] == Verdict::Outlier).collect();
         assert_eq!(flagged, (120..126).collect::<Vec<_>>());

@@ -5,7 +5,7 @@ use super::{About, Judged, Method, Own, Segment, shared};
 use crate::param::{Param, Settings};
 use crate::stop::{Stop, Stopped};
 
-/// The method `mean-window` of section 3 of the methods page.
+/// The method `mean-window` of section 3 of `docs/methods.md`.
 #[derive(Debug, Clone, Copy)]
 pub struct MeanWindow;
 

@@ -1,15 +1,18 @@
 //! The scales that methods judge by: the noise of a segment and the floor below which no scale may fall.
-//! Section 1 of the methods page; eq. (2) of \[000\] for `spline`.
+//! Section 1 of `docs/methods.md`; eq. (2) of \[000\] for `spline`.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::shared::{C, FLOOR, K, RECORD};
 use super::{exceeds, zero_scale_of_many};
+use crate::calibration::{Calibration, calibrate};
 use crate::math::movement::smallest_movement;
 use crate::math::order::{MAD_TO_SIGMA, Middle, median_of_many, median_of_smallest};
 use crate::math::{difference, pieces, smoothing};
-use crate::param::{Choice, Kind, Settings};
+use crate::param::{Choice, Kind, Settings, Value};
 use crate::series::Series;
 use crate::stop::{Stop, Stopped};
 
@@ -20,16 +23,21 @@ const ENOUGH: usize = 50;
 const THIRD: f64 = 4.472_135_954_999_58;
 
 /// The scales of one segment.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scales {
     /// Noise scale, at least `floor`; 0 where it counts as zero and there is no floor, or where no setting asks
     /// for it.
     pub sigma: f64,
-    /// Lower bound on any scale.
+    /// Lower bound on any scale; the median of `floors` where each sample has its own.
     pub floor: f64,
+    /// Lower bound on the scale of each sample of the channel, where the setting `floor` asks for that.
+    pub floors: Option<Arc<[f64]>>,
+    /// How far each sample of the channel lies outside of what both sides expect; with `floors`.
+    pub objections: Option<Arc<[f64]>>,
 }
 
-/// The scales of each segment under `settings` (which may have neither `sigma` nor `floor`).
+/// The scales of each segment under `settings` (which may have neither `sigma` nor `floor`); the channel is calibrated
+/// where `floor` asks for it.
 ///
 /// # Errors
 /// [`Stopped`] as soon as nobody waits for them any more.
@@ -39,10 +47,35 @@ pub fn scales(
     settings: &Settings,
     stop: &Stop,
 ) -> Result<Vec<Scales>, Stopped> {
-    let floors = match choice(settings, "floor") {
-        None => vec![0.0; segments.len()],
-        Some(Choice::Number(x)) => vec![x; segments.len()],
-        Some(Choice::Word(_)) => auto_floor(series, segments, stop)?,
+    let calibration = if by_record(settings) { Some(calibrate(series, stop)?) } else { None };
+    scales_by(series, segments, settings, calibration.as_ref(), stop)
+}
+
+/// True when these settings take the floor from the calibration of the record.
+#[must_use]
+pub fn by_record(settings: &Settings) -> bool {
+    choice(settings, FLOOR.key) == Some(Choice::Word(RECORD))
+}
+
+/// [`scales`] of a channel whose calibration is known.
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for them any more.
+pub fn scales_by(
+    series: &Series<'_>,
+    segments: &[Range<usize>],
+    settings: &Settings,
+    calibration: Option<&Calibration>,
+    stop: &Stop,
+) -> Result<Vec<Scales>, Stopped> {
+    let own = calibration.filter(|_| by_record(settings)).map(|c| record_floors(c, settings));
+    let objections: Option<Arc<[f64]>> =
+        calibration.filter(|_| own.is_some()).map(|c| c.objections.iter().copied().collect());
+    let floors = match (choice(settings, "floor"), &own) {
+        (None, _) => vec![0.0; segments.len()],
+        (Some(Choice::Number(x)), _) => vec![x; segments.len()],
+        (Some(Choice::Word(_)), Some(own)) => segments.iter().map(|s| middle(&own[s.clone()])).collect(),
+        (Some(Choice::Word(_)), None) => auto_floor(series, segments, stop)?,
     };
     let sigmas = match choice(settings, "sigma") {
         None => vec![0.0; segments.len()],
@@ -61,9 +94,26 @@ pub fn scales(
         } else {
             floor
         };
-        Ok(Scales { sigma, floor })
+        Ok(Scales { sigma, floor, floors: own.clone(), objections: objections.clone() })
     })
     .collect()
+}
+
+/// The floor of each sample: the limit of the calibration over the default of the multiplier, so that the multiplier
+/// still turns it. 0 where nothing is known.
+fn record_floors(calibration: &Calibration, settings: &Settings) -> Arc<[f64]> {
+    let usual = settings.params().iter().find(|p| p.key == K.key || p.key == C.key).map(|p| p.default);
+    let usual = if let Some(Value::Real(k)) = usual { k } else { WITHOUT_MULTIPLIER };
+    calibration.limits.iter().map(|limit| if limit.is_finite() { limit / usual } else { 0.0 }).collect()
+}
+
+/// What stands for the multiplier of criteria that have none.
+const WITHOUT_MULTIPLIER: f64 = 4.0;
+
+fn middle(floors: &[f64]) -> f64 {
+    let mut floors = floors.to_vec();
+    let at = floors.len() / 2;
+    if floors.is_empty() { 0.0 } else { *floors.select_nth_unstable_by(at, f64::total_cmp).1 }
 }
 
 /// False when the method measures a scale of its own and knows none of the words that ask for one of these.

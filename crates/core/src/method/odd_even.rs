@@ -6,7 +6,7 @@ use crate::math::pieces;
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
-/// The method `odd-even` of section 2 of the methods page.
+/// The method `odd-even` of section 2 of `docs/methods.md`.
 #[derive(Debug, Clone, Copy)]
 pub struct OddEven;
 
@@ -95,7 +95,8 @@ mod tests {
     #[test]
     fn a_replaced_sample_has_the_residual_of_its_neighbour_in_the_group() {
         let y: Vec<f64> = (0..40).map(|i| f64::from(i % 5)).collect();
-        let segment = Segment { t: &y, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, rate: None };
+        let segment =
+            Segment { t: &y, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate: None };
         let mut settings = Settings::defaults(&PARAMS);
         settings.set("odd-even", "block", Value::Whole(20)).unwrap();
         let judged = Judged {

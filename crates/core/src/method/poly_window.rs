@@ -6,7 +6,7 @@ use crate::math::polyfit::Polynomial;
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
-/// The method `poly-window` of section 3 of the methods page.
+/// The method `poly-window` of section 3 of `docs/methods.md`.
 #[derive(Debug, Clone, Copy)]
 pub struct PolyWindow;
 

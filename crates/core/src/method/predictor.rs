@@ -1,5 +1,5 @@
 //! Judging sample by sample from earlier samples only: the start group, the run after which a model is lost, and
-//! the restart (sections 4, 6 and 7 of the methods page). The model itself is a [`Model`]; what is said goes to a
+//! the restart (sections 4, 6 and 7 of `docs/methods.md`). The model itself is a [`Model`]; what is said goes to a
 //! [`Sink`], where a later call may correct what an earlier one said of the same sample.
 
 use std::ops::Range;

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::noise;
+use crate::calibration::local_interval;
 use crate::math::movement;
 use crate::series::Series;
 use crate::stop::{Stop, Stopped};
@@ -14,13 +15,22 @@ pub struct Segment<'a> {
     pub t: &'a [f64],
     /// Values, finite, as many.
     pub y: &'a [f64],
-    /// Nominal interval of the whole channel in seconds; NaN when the channel has one sample.
+    /// Nominal interval in seconds, of the whole channel or, where the record was calibrated, of the segment; NaN where
+    /// that has one sample.
     pub interval: f64,
-    /// Noise scale by the setting `sigma`, at least [`Segment::floor`]; 0 when it counts as zero (section 1 of the
-    /// methods page), and for methods without that setting.
+    /// Noise scale by the setting `sigma`, at least [`Segment::floor`]; 0 when it counts as zero (section 1 of
+    /// `docs/methods.md`), and for methods without that setting.
     pub sigma: f64,
-    /// Lower bound on any scale, by the setting `floor`; 0 when there is none.
+    /// Lower bound on any scale, by the setting `floor`; 0 when there is none. The median of [`Segment::floors`] where
+    /// each sample has its own.
     pub floor: f64,
+    /// Lower bound on the scale of each sample; empty where one holds for all.
+    pub floors: &'a [f64],
+    /// How far each sample lies outside of what both sides expect ([`Calibration::objections`]); with
+    /// [`Segment::floors`].
+    ///
+    /// [`Calibration::objections`]: crate::calibration::Calibration::objections
+    pub objections: &'a [f64],
     /// The present samples of the rate channel, over the whole record.
     pub rate: Option<Rate<'a>>,
 }
@@ -37,13 +47,15 @@ pub struct Rate<'a> {
 impl<'a> Segment<'a> {
     /// The segment of `series` that `range` names.
     #[must_use]
-    pub fn of(series: &'a Series<'_>, range: &Range<usize>, scales: noise::Scales, rate: Option<Rate<'a>>) -> Self {
+    pub fn of(series: &'a Series<'_>, range: &Range<usize>, scales: &'a noise::Scales, rate: Option<Rate<'a>>) -> Self {
         Self {
             t: &series.t[range.clone()],
             y: &series.y[range.clone()],
-            interval: series.interval,
+            interval: if scales.floors.is_some() { local_interval(&series.t[range.clone()]) } else { series.interval },
             sigma: scales.sigma,
             floor: scales.floor,
+            floors: scales.floors.as_deref().map_or(&[], |all| &all[range.clone()]),
+            objections: scales.objections.as_deref().map_or(&[], |all| &all[range.clone()]),
             rate,
         }
     }

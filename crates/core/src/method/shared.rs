@@ -27,13 +27,17 @@ pub const MAX_GAP: Param = Param {
 /// Lower bound on any scale.
 pub const FLOOR: Param = Param {
     key: "floor",
-    help: "lower bound on any scale; auto: half the smallest step of the data (quantised records)",
+    help: "lower bound on any scale; record: where the residuals of this record stop being noise (calibration), for each \
+           sample; auto: half the smallest step of the data",
     unit: "channel units",
-    kind: Kind::RealOr { words: &["auto"], min: 0.0, max: 1e300 },
-    default: Value::Word("auto"),
-    paper: None,
+    kind: Kind::RealOr { words: &[RECORD, "auto"], min: 0.0, max: 1e300 },
+    default: Value::Word(RECORD),
+    paper: Some(Value::Word("auto")),
     matters: always,
 };
+
+/// The word of [`FLOOR`] that asks for the calibration of the record.
+pub const RECORD: &str = "record";
 
 /// How the noise scale is found.
 pub const SIGMA: Param = Param {

@@ -10,7 +10,7 @@ use crate::math::sorted_window::SortedWindow;
 use crate::param::{Param, Settings};
 use crate::stop::{Stop, Stopped};
 
-/// The method `template` of section 3 of the methods page.
+/// The method `template` of section 3 of `docs/methods.md`.
 #[derive(Debug, Clone, Copy)]
 pub struct Template;
 
@@ -223,7 +223,7 @@ mod tests {
             ] {
                 settings.set("template", key, value).unwrap();
             }
-            let segment = Segment { t: &t, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, rate: None };
+            let segment = Segment { t: &t, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate: None };
             let judged = Template.judge(&segment, &settings, &Stop::never()).unwrap();
             let (flags, expected) = plain(&t, &y, n as usize, rms, feedback);
             for i in 0..y.len() {

@@ -1,4 +1,4 @@
-//! What the criteria of section 2 of the methods page share: blocks, a least-squares trend, and passes over the
+//! What the criteria of section 2 of `docs/methods.md` share: blocks, a least-squares trend, and passes over the
 //! samples that survive \[001 s.2, 002\].
 
 use std::borrow::Cow;

@@ -5,7 +5,7 @@ use super::{About, Judged, Method, Own, Segment, shared};
 use crate::param::{Param, Settings};
 use crate::stop::{Stop, Stopped};
 
-/// The method `trend-wright` of section 2 of the methods page.
+/// The method `trend-wright` of section 2 of `docs/methods.md`.
 #[derive(Debug, Clone, Copy)]
 pub struct TrendWright;
 

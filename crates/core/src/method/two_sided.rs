@@ -1,4 +1,4 @@
-//! Two-sided variable-order polynomial test: section 6 of the methods page, \[000\].
+//! Two-sided variable-order polynomial test: section 6 of `docs/methods.md`, \[000\].
 
 use rayon::prelude::*;
 
@@ -12,7 +12,7 @@ mod direction;
 mod repair;
 
 use candidates::NO_CANDIDATE;
-pub use candidates::{Candidate, Candidates, Closest, candidates};
+pub use candidates::{Bounded, Candidate, Candidates, Closest, candidates};
 pub use direction::{OneWay, run};
 
 /// Extrapolates polynomials of several orders from both sides: a sample that no candidate of either side expects is
@@ -147,17 +147,20 @@ impl Method for TwoSided {
     }
 
     fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
-        let delta = match settings.choice("delta") {
-            Choice::Number(delta) => delta,
-            Choice::Word(_) => settings.real(shared::K.key) * segment.sigma,
+        let k = settings.real(shared::K.key);
+        let (delta, local) = match settings.choice("delta") {
+            Choice::Number(delta) => (delta, &[][..]),
+            Choice::Word(_) => (k * segment.sigma, segment.floors),
         };
         if delta <= 0.0 {
             return Judged::unchecked_many(segment.len(), stop);
         }
+        // Where each sample has a floor of its own, that alone is the scale.
+        let delta = |i: usize| local.get(i).map_or(delta, |floor| k * floor);
         let max_run = settings.whole(shared::MAX_RUN.key);
         let one = |way| {
-            let model = Candidates::new(settings, delta, segment.sigma, segment.interval);
-            run(model, segment, max_run, way, stop)
+            let model = Candidates::new(settings, segment.sigma, segment.interval);
+            run(model, segment, delta, max_run, way, stop)
         };
         let (forward, backward) = match settings.word("direction") {
             "forward" => (Some(one(Way::Forward)?), None),
@@ -200,7 +203,7 @@ impl Method for TwoSided {
 /// The verdicts of both directions put together, or of the one that ran.
 fn together(
     segment: &Segment<'_>,
-    delta: f64,
+    delta: impl Fn(usize) -> f64 + Sync,
     forward: Option<OneWay>,
     backward: Option<OneWay>,
     stop: &Stop,
@@ -208,7 +211,7 @@ fn together(
     let (n, check) = (segment.len(), || stop.check());
     let expected = match (&forward, &backward) {
         (Some(f), Some(b)) => {
-            pieces::collect(n, &check, |i| nearer(segment.y[i], f.expected[i], b.expected[i], TIE * delta))?
+            pieces::collect(n, &check, |i| nearer(segment.y[i], f.expected[i], b.expected[i], TIE * delta(i)))?
         }
         (Some(one), None) | (None, Some(one)) => pieces::collect(n, &check, |i| one.expected[i])?,
         (None, None) => Vec::new(),
@@ -230,7 +233,7 @@ fn together(
         verdict: verdicts,
         directions,
         repair_code: pieces::collect(n, &check, |i| [code(&forward, i), code(&backward, i)])?,
-        tolerance: pieces::collect(n, &check, |i| if expected[i].is_nan() { f64::NAN } else { delta })?,
+        tolerance: pieces::collect(n, &check, |i| if expected[i].is_nan() { f64::NAN } else { delta(i) })?,
         expected,
         ..Judged::default()
     };

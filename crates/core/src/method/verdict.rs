@@ -1,5 +1,7 @@
 //! What can be said of a sample, and how deviations are compared with limits.
 
+pub use crate::math::tie::TIE;
+
 /// What is said of one sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Verdict {
@@ -13,6 +15,12 @@ pub enum Verdict {
     Unchecked,
     /// No value, or no time.
     Missing,
+}
+
+impl serde::Serialize for Verdict {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.word())
+    }
 }
 
 impl Verdict {
@@ -86,10 +94,6 @@ pub struct Restart {
     /// The direction it ran in.
     pub way: Way,
 }
-
-/// Equal to within this fraction of a limit is a tie (values on a grid sit exactly on limits; rounding must not
-/// decide).
-pub const TIE: f64 = 1e-9;
 
 /// True when `deviation` reaches `limit`: a tie reaches. Never for a limit that is zero, negative or not finite.
 #[must_use]

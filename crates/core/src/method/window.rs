@@ -1,4 +1,4 @@
-//! What the methods of section 3 of the methods page share: windows, scales, pooled floor and feedback \[003\].
+//! What the methods of section 3 of `docs/methods.md` share: windows, scales, pooled floor and feedback \[003\].
 
 use rayon::prelude::*;
 

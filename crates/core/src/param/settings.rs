@@ -1,6 +1,6 @@
 //! One value for each parameter of a list.
 
-use super::{Choice, Param, Value, find};
+use super::{Choice, Numbers, Param, Value, find};
 use crate::error::Result;
 
 /// One legal value for each parameter of a list. Cloning is cheap; two settings of one method compare by value.
@@ -13,6 +13,12 @@ pub struct Settings {
 impl PartialEq for Settings {
     fn eq(&self, other: &Self) -> bool {
         std::ptr::eq(self.params, other.params) && self.values == other.values
+    }
+}
+
+impl serde::Serialize for Settings {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.collect_map(self.iter().map(|(param, value)| (param.key, value)))
     }
 }
 
@@ -142,6 +148,19 @@ impl Settings {
             Some(Value::Word(w)) => Choice::Word(w),
             Some(Value::Real(x)) => Choice::Number(x),
             other => panic!("{key}: read as a word or number, declared as {other:?}"),
+        }
+    }
+
+    /// The numbers of `key`.
+    ///
+    /// # Panics
+    /// When the list has no such parameter.
+    #[must_use]
+    #[track_caller]
+    pub fn numbers(&self, key: &str) -> Numbers {
+        match self.get(key) {
+            Some(Value::Numbers(list)) => list,
+            other => panic!("{key}: read as numbers, declared as {other:?}"),
         }
     }
 

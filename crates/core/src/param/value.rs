@@ -2,8 +2,11 @@
 
 use std::fmt;
 
+use super::Numbers;
+
 /// The value of one parameter. Prints in the form that `--set` and the session file read back.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(untagged)]
 pub enum Value {
     /// A whole number.
     Whole(i64),
@@ -13,6 +16,8 @@ pub enum Value {
     Word(&'static str),
     /// Yes or no.
     Switch(bool),
+    /// A few numbers.
+    Numbers(Numbers),
 }
 
 /// The value of a parameter that is either a word or a number.
@@ -32,6 +37,7 @@ impl fmt::Display for Value {
             Self::Real(x) => write!(f, "{x:?}"),
             Self::Word(w) => f.write_str(w),
             Self::Switch(b) => write!(f, "{b}"),
+            Self::Numbers(list) => write!(f, "{list}"),
         }
     }
 }

@@ -88,7 +88,8 @@ fn every_count_is_that_of_the_method_with_that_value() {
         ("hampel", "window", vec![3.0, 3.2, 9.4, 21.0]),
     ] {
         let (t, y, setup) = demo(id);
-        let input = Input { series: &Series::new(&t, &y), rate: None };
+        let series = Series::new(&t, &y);
+        let input = Input::new(&series, None);
         let param = numeric(&setup, key, values[0], values[values.len() - 1]).unwrap();
         let stop = Stop::never();
         let swept = sweep(input, None, &setup, (param, &values), &stop).unwrap();
@@ -108,7 +109,8 @@ fn every_count_is_that_of_the_method_with_that_value() {
 #[test]
 fn a_sweep_nobody_waits_for_ends() {
     let (t, y, setup) = demo("two-sided");
-    let input = Input { series: &Series::new(&t, &y), rate: None };
+    let series = Series::new(&t, &y);
+    let input = Input::new(&series, None);
     let param = multiplier(&setup).unwrap();
     let newest = std::sync::Arc::new(std::sync::atomic::AtomicU64::new(2));
     let stop = Stop::when_superseded(newest, 1);

@@ -4,16 +4,19 @@ use std::sync::Arc;
 
 use super::{Detection, Outcome, Setup};
 use crate::analysis::{Input, Rows};
+use crate::check::Applied;
 use crate::error::{Error, Result};
 use crate::review::Decisions;
 use crate::stop::{Stop, Stopped};
 use crate::track::{Channel, Samples, Series, Track};
 
-/// Runs the method of `setup` over a channel. With `previous`, a detection of the same channel that differs in a
-/// multiplier that only gates, its scores are used again; the result is the same to the last bit.
+/// Runs the method of `setup` over a channel. `previous` is another detection of the same channel: its scores are used
+/// again where only a multiplier that gates differs, and its calibration where its method saw the same samples. The
+/// result is the same to the last bit.
 ///
 /// # Errors
-/// [`Error::Stopped`]; [`Error::Memory`]; [`Error::Usage`] when the method needs a rate channel and has none.
+/// [`Error::Stopped`]; [`Error::Memory`]; [`Error::Usage`] when the method needs a rate channel, or a check a channel, and
+/// has none.
 pub fn detect(
     track: &Track,
     channel: &Channel,
@@ -22,14 +25,55 @@ pub fn detect(
     previous: Option<&Detection>,
     stop: &Stop,
 ) -> Result<Detection> {
+    detect_taught(track, channel, samples, (setup, &Decisions::default()), previous, stop)
+}
+
+/// [`detect`] that lets the method learn from the analyst's decisions, where the setup says so.
+///
+/// # Errors
+/// As [`detect`].
+pub fn detect_taught(
+    track: &Track,
+    channel: &Channel,
+    samples: &Samples,
+    (setup, decisions): (&Setup, &Decisions),
+    previous: Option<&Detection>,
+    stop: &Stop,
+) -> Result<Detection> {
     let series = samples.series(channel, &track.time);
+    let input = Input { decisions: Some(decisions), ..Input::new(&series, None) };
     if let Some(previous) = previous
-        && let Some(detection) = previous.regated(&series, setup, stop)?
+        && let Some(detection) = previous.regated(input, setup, stop)?
     {
         return Ok(detection);
     }
     let rate = rate_of(track, channel, setup)?;
-    Detection::of(Input { series: &series, rate: rate.as_ref() }, setup, stop)
+    let companions = companions(track, channel, &series, setup)?;
+    let input = Input { rate: rate.as_ref(), companions: &companions, ..input };
+    Ok(Detection::calibrated(input, setup, previous, stop)?)
+}
+
+/// The values of the channels that each check of `setup` names, at the samples of `series`.
+pub(super) fn companions(
+    track: &Track,
+    channel: &Channel,
+    series: &Series<'_>,
+    setup: &Setup,
+) -> Result<Vec<Vec<Vec<f64>>>> {
+    let of_check = |applied: &Applied| {
+        let values = |name: &String| match track.beside(channel, name) {
+            Some(other) => Ok((0..series.len()).map(|i| other.value(series.row(i))).collect()),
+            None => {
+                let names: Vec<&str> = track.channels.iter().map(|c| c.name.as_str()).collect();
+                Err(Error::usage(
+                    format!("{name}: there is no such channel for the check {}", applied.id()),
+                    format!("channels: {}", names.join(", ")),
+                ))
+            }
+        };
+        if applied.on { applied.channels.iter().map(values).collect() } else { Ok(Vec::new()) }
+    };
+    setup.preparation.checks.iter().map(of_check).collect()
 }
 
 /// The samples of the channel that measures the rate of `channel`, where the method of `setup` needs one.
@@ -55,21 +99,34 @@ fn rate_channel<'a>(track: &'a Track, channel: &Channel, setup: &Setup) -> Resul
     })
 }
 
+/// A channel that is judged together with others.
+#[derive(Debug, Clone, Copy)]
+pub struct Member<'a> {
+    /// The channel.
+    pub channel: &'a Channel,
+    /// Its present samples.
+    pub samples: &'a Samples,
+    /// Its setup: the method and its settings are those of all members.
+    pub setup: &'a Setup,
+    /// The analyst's decisions about it.
+    pub decisions: &'a Decisions,
+}
+
 /// Runs a method that judges channels together ([`Method::together`](crate::method::Method::together)) over all
-/// `channels` that share `setup`; one detection for each.
+/// `members`; one detection for each.
 ///
 /// # Errors
-/// [`Error::Stopped`]; [`Error::Memory`].
-pub fn detect_together(
-    track: &Track,
-    channels: &[(&Channel, &Samples)],
-    setup: &Setup,
-    stop: &Stop,
-) -> Result<Vec<Detection>> {
-    let series: Vec<Series<'_>> =
-        channels.iter().map(|(channel, samples)| samples.series(channel, &track.time)).collect();
-    let series: Vec<&Series<'_>> = series.iter().collect();
-    Detection::together(&series, setup, stop)
+/// [`Error::Stopped`]; [`Error::Memory`]; [`Error::Usage`] when a check needs a channel that the record does not have.
+pub fn detect_together(track: &Track, members: &[Member<'_>], stop: &Stop) -> Result<Vec<Detection>> {
+    let series: Vec<Series<'_>> = members.iter().map(|m| m.samples.series(m.channel, &track.time)).collect();
+    let beside = members.iter().zip(&series).map(|(m, series)| companions(track, m.channel, series, m.setup));
+    let beside: Vec<Vec<Vec<Vec<f64>>>> = beside.collect::<Result<_>>()?;
+    let mut channels = Vec::with_capacity(members.len());
+    for ((member, series), companions) in members.iter().zip(&series).zip(&beside) {
+        let input = Input { companions, decisions: Some(member.decisions), ..Input::new(series, None) };
+        channels.push((input, member.setup));
+    }
+    Ok(Detection::together(&channels, stop)?)
 }
 
 /// Lets the decisions win over the detection, repairs the outliers that hold, and fills gaps.

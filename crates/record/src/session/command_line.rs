@@ -3,19 +3,20 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::{DEFAULT_METHOD, Plan, Preset, Session, Setup};
+use super::{DEFAULT_METHOD, Plan, Preparation, Preset, Session, Setup, suggested};
 use crate::param::Settings;
 use crate::repair;
-use crate::track::{LoadOptions, Source, Worded, is_shown};
+use crate::track::{LoadOptions, Source, Track, Worded, is_shown};
 
 /// The command for a POSIX shell that writes to `output` what `session` gives: `wildpoint clean` with what differs
 /// from the preset in force. None where no `clean` says the same, and only the saved session does: with decisions,
 /// with channels that are set up differently, for the built-in record, or when loading takes an option that only
 /// sessions have.
 #[must_use]
-pub fn clean_command(session: &Session, output: &Path) -> Option<String> {
+pub fn clean_command(session: &Session, track: &Track, output: &Path) -> Option<String> {
     let first = session.plans.first()?;
-    let alike = session.plans.iter().all(|p| p.decisions.is_empty() && p.setup == first.setup);
+    let like_first = |p: &Plan| p.setup.clone().prepared(&first.setup.preparation) == first.setup;
+    let alike = session.plans.iter().all(|p| p.decisions.is_empty() && like_first(p));
     let Source::File(record) = &session.data.source else { return None };
     if !alike {
         return None;
@@ -25,7 +26,8 @@ pub fn clean_command(session: &Session, output: &Path) -> Option<String> {
     for Plan { channel, .. } in &session.plans {
         option(&mut line, "channel", channel);
     }
-    judging(&mut line, &first.setup);
+    let preset = judging(&mut line, &first.setup);
+    preparing(&mut line, session, track, preset)?;
     let _ = write!(line, " -o {}", path_quoted(output));
     Some(line)
 }
@@ -72,17 +74,17 @@ fn loading(line: &mut String, options: &LoadOptions) -> Option<()> {
 }
 
 /// Method and repair, with the preset that leaves least to say.
-fn judging(line: &mut String, setup: &Setup) {
+fn judging(line: &mut String, setup: &Setup) -> Preset {
     let differing = |preset: Preset| differences(&setup.settings, &preset.settings(setup.method));
     let (default, paper) = (differing(Preset::Default), differing(Preset::Paper));
     if setup.method.about().id != DEFAULT_METHOD {
         option(line, "method", setup.method.about().id);
     }
-    let least = if paper.len() < default.len() {
+    let (preset, least) = if paper.len() < default.len() {
         option(line, "preset", "paper");
-        paper
+        (Preset::Paper, paper)
     } else {
-        default
+        (Preset::Default, default)
     };
     if let Some(rate) = &setup.rate {
         option(line, "rate", rate);
@@ -95,6 +97,40 @@ fn judging(line: &mut String, setup: &Setup) {
             None => option(line, "set", pair),
         }
     }
+    preset
+}
+
+/// What is done with the channels before: nothing need be said of what `clean` does by itself. None where it is not the
+/// same for all channels, or names channels in a way that the command line cannot.
+fn preparing(line: &mut String, session: &Session, track: &Track, preset: Preset) -> Option<()> {
+    let by_itself = |plan: &Plan| match (preset, track.channel(&plan.channel)) {
+        (Preset::Default, Some(channel)) => suggested(channel),
+        _ => Preparation::default(),
+    };
+    // Without decisions there are none to exclude.
+    let done = |plan: &Plan| Preparation { exclude_decided: false, ..plan.setup.preparation.clone() };
+    let all: Vec<(Preparation, Preparation)> = session.plans.iter().map(|p| (done(p), by_itself(p))).collect();
+    if all.iter().any(|(done, own)| done.checks != own.checks) {
+        let checks = all.first().map(|(done, _)| done.checks.as_slice()).unwrap_or_default();
+        let sayable = |name: &String| !name.contains([',', '=']);
+        let plain = checks.iter().all(|c| c.on && c.channels.iter().all(sayable));
+        if !plain || all.iter().any(|(done, _)| done.checks != checks) {
+            return None;
+        }
+        if checks.is_empty() {
+            option(line, "check", "none");
+        }
+        checks.iter().for_each(|check| option(line, "check", &check.to_string()));
+    }
+    if all.iter().any(|(done, own)| done.period != own.period) {
+        let period = |done: &Preparation| done.period.map_or("off".to_owned(), |p| format!("{p:?}"));
+        let first = all.first().map(|(done, _)| period(done))?;
+        if all.iter().any(|(done, _)| period(done) != first) {
+            return None;
+        }
+        option(line, "period", &first);
+    }
+    Some(())
 }
 
 /// `key=value` for each value that is another one.
@@ -148,7 +184,12 @@ fn escaped(c: char) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::LazyLock;
+
     use super::*;
+    use crate::track::load;
+
+    static TRACK: LazyLock<Track> = LazyLock::new(|| load(&Source::demo(), &LoadOptions::default()).unwrap());
 
     #[test]
     fn words_of_the_shell_stay_one_word() {
@@ -194,7 +235,7 @@ mod tests {
             let plan = Plan { channel, setup, decisions: crate::review::Decisions::default() };
             let session = Session { data, plans: vec![plan], result: None };
             let output = Path::new(&output);
-            for line in [clean_command(&session, output).unwrap(), replay_command(Path::new(&record), output)] {
+            for line in [clean_command(&session, &TRACK, output).unwrap(), replay_command(Path::new(&record), output)] {
                 proptest::prop_assert!(line.chars().all(is_shown), "{line:?}");
             }
         }

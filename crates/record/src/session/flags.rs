@@ -6,7 +6,7 @@ use sha2::{Digest, Sha256};
 
 use super::cleaned::Hashing;
 use super::table::{Walk, cell, time_text, walk, write_row};
-use super::{Analysed, Mark, Run, Session};
+use super::{Analysed, Mark, Objected, Run, Session};
 use crate::error::{Error, Result};
 use crate::method::{Direction, Verdict};
 use crate::track::{Track, inert};
@@ -32,18 +32,24 @@ const HEADER: [&str; 17] = [
     "note",
 ];
 
+/// The columns after those where a check is made before a method: who flagged the sample, and what a check found.
+const BY_CHECKS: [&str; 2] = ["by", "evidence"];
+
 /// Writes the audit table as CSV. Missing samples are in the diagnostics, filled or not.
 ///
 /// # Errors
 /// When the input cannot be read again, or the table cannot be written.
 pub fn flags(track: &Track, session: &Session, analysed: &Analysed, out: &mut dyn Write) -> Result<()> {
     let mut writer = csv::Writer::from_writer(out);
-    write_row(&mut writer, &HEADER)?;
+    let checks = session.plans.iter().any(|p| p.setup.preparation.checks_anything());
+    let more: &[&str] = if checks { &BY_CHECKS } else { &[] };
+    write_row(&mut writer, &[&HEADER, more].concat())?;
     walk(track, session, analysed, |row, cells, channel| {
         let fields = channel.position(row).and_then(|position| of_sample(session, channel, row, position));
-        let Some(mut fields) = fields else { return Ok(()) };
+        let Some((mut fields, by)) = fields else { return Ok(()) };
         fields[1] = time_text(track, row, cells);
-        let fields: Vec<&str> = fields.iter().map(String::as_str).collect();
+        let by = by.iter().take(more.len());
+        let fields: Vec<&str> = fields.iter().chain(by).map(String::as_str).collect();
         write_row(&mut writer, &fields)
     })?;
     writer.flush().map_err(Error::io("write", "the flags"))
@@ -60,10 +66,16 @@ pub fn flags_sha256(track: &Track, session: &Session, analysed: &Analysed) -> Re
     Ok(crate::track::hex(&hashing.hash.finalize()))
 }
 
-fn of_sample(session: &Session, channel: &Walk<'_>, row: usize, position: usize) -> Option<[String; 17]> {
+/// The columns of a sample, and those of checks.
+fn of_sample(
+    session: &Session,
+    channel: &Walk<'_>,
+    row: usize,
+    position: usize,
+) -> Option<([String; 17], [String; 2])> {
     let e = evidence(session, channel, row, position)?;
     let word = |d: Option<Direction>| d.map_or("", Direction::word).to_owned();
-    Some([
+    let fields = [
         e.row.to_string(),
         String::new(),
         inert(channel.name).into_owned(),
@@ -72,16 +84,18 @@ fn of_sample(session: &Session, channel: &Walk<'_>, row: usize, position: usize)
         e.run.map_or("", |r| if r.length == 1 { "isolated" } else { "patch" }).to_owned(),
         e.run.map(|r| r.start.to_string()).unwrap_or_default(),
         e.run.map(|r| r.length.to_string()).unwrap_or_default(),
-        cell(e.expected),
+        cell(e.expected.map(|p| channel.outcome.detection.written(p))),
         cell(e.tolerance),
         cell(e.ratio()),
         word(e.forward),
         word(e.backward),
         cell(e.clean),
         e.action().to_owned(),
-        if e.decided { "analyst" } else { "method" }.to_owned(),
+        e.decided_by().to_owned(),
         inert(&e.note).into_owned(),
-    ])
+    ];
+    let evidence = e.objected.as_ref().map(|o| o.evidence.clone()).unwrap_or_default();
+    Some((fields, [channel.outcome.detection.by(position).to_owned(), evidence]))
 }
 
 /// All that is known about a sample that is not normal or that somebody decided on.
@@ -107,8 +121,10 @@ pub struct Evidence {
     pub backward: Option<Direction>,
     /// The value in the cleaned file; none where the cell is empty.
     pub clean: Option<f64>,
-    /// True when the analyst decided, false when only the method did.
+    /// True when the analyst decided, false when only the method or a check did.
     pub decided: bool,
+    /// The check that objects to the sample.
+    pub objected: Option<Objected>,
     /// The analyst's note; often empty.
     pub note: String,
 }
@@ -130,6 +146,16 @@ impl Evidence {
     pub fn ratio(&self) -> Option<f64> {
         let tolerance = self.tolerance.filter(|h| *h > 0.0);
         self.expected.zip(tolerance).map(|(p, h)| (self.raw - p).abs() / h)
+    }
+
+    /// Who has the last word on the sample: `analyst`, `check` or `method`.
+    #[must_use]
+    pub fn decided_by(&self) -> &'static str {
+        match (self.decided, &self.objected) {
+            (true, _) => "analyst",
+            (false, Some(_)) => "check",
+            (false, None) => "method",
+        }
     }
 
     /// What is done with the sample: `repaired`, `removed` or `kept`.
@@ -172,6 +198,7 @@ pub fn evidence(session: &Session, channel: &Walk<'_>, row: usize, position: usi
         backward: directions.and_then(|d| d.backward),
         clean: channel.clean(position),
         decided: decision.is_some(),
+        objected: outcome.detection.objected(position),
         note: decision.map(|d| d.note.clone()).unwrap_or_default(),
     })
 }

@@ -8,7 +8,8 @@ use super::document::{Read, WrittenDecision, read_with_texts};
 use super::flags::flags_sha256;
 use super::save::known;
 use super::{
-    Data, Detection, Outcome, Plan, Recorded, Session, Setup, changes, clean_sha256, detect, detect_together, settle,
+    Data, Detection, Member, Outcome, Plan, Recorded, Session, Setup, changes, clean_sha256, detect_taught,
+    detect_together, settle,
 };
 use crate::error::{Error, Result};
 use crate::stop::Stop;
@@ -94,7 +95,8 @@ pub fn open_all(path: &Path, wanted: Wanted<'_>) -> Result<Opened> {
     let accepted = Accepted { appended: Appended::LeftOut, ..Accepted::default() };
     let mut opened = open_with(path, accepted, false, wanted)?;
     opened.own.clear();
-    let others = Session::new(&opened.track, LoadOptions::default(), &Setup::standard());
+    let others =
+        Session::new(&opened.track, LoadOptions::default(), &Setup::standard()).with_suggestions(&opened.track);
     let mut own = std::mem::take(&mut opened.session.plans);
     // Several plans of one channel stay together, in the order of the file.
     for other in others.plans {
@@ -355,7 +357,7 @@ impl Analysed {
             let channel = &track.channels[index];
             let detection = match ready.take() {
                 Some(detection) => detection,
-                None => detect(track, channel, &samples, &plan.setup, None, stop)?,
+                None => detect_taught(track, channel, &samples, (&plan.setup, &plan.decisions), None, stop)?,
             };
             let outcome = settle(track, channel, &samples, Arc::new(detection), &plan.decisions, stop)?;
             Ok((index, samples, outcome))
@@ -404,12 +406,16 @@ fn together(
         let channel = |plan: usize| &track.channels[prepared[plan].0];
         let shares = |plan: usize| channel(plan).same_target(channel(first));
         let members: Vec<usize> =
-            (first..plans.len()).filter(|&i| plans[i].setup.same_detection(&plans[first].setup) && shares(i)).collect();
-        let channels: Vec<_> = members.iter().map(|&i| (&track.channels[prepared[i].0], &prepared[i].1)).collect();
-        let found = detect_together(track, &channels, &plans[first].setup, stop)?;
+            (first..plans.len()).filter(|&i| plans[i].setup.same_method(&plans[first].setup) && shares(i)).collect();
+        let member = |&i: &usize| Member {
+            channel: channel(i),
+            samples: &prepared[i].1,
+            setup: &plans[i].setup,
+            decisions: &plans[i].decisions,
+        };
+        let found = detect_together(track, &members.iter().map(member).collect::<Vec<_>>(), stop)?;
         for (member, detection) in members.into_iter().zip(found) {
-            let repair = plans[member].setup.clone();
-            detections[member] = Some(Detection { setup: repair, ..detection });
+            detections[member] = Some(detection);
         }
     }
     Ok(detections)

@@ -1,7 +1,7 @@
 //! Threshold advice for a channel of a record: [`wildpoint_core::sweep`] on its samples and its truth column.
 
 use super::Setup;
-use super::analysis::rate_of;
+use super::analysis::{companions, rate_of};
 use crate::analysis::Input;
 use crate::error::Result;
 use crate::param::Param;
@@ -25,6 +25,7 @@ pub fn sweep(
 ) -> Result<Sweep> {
     let series = samples.series(channel, &track.time);
     let rate = rate_of(track, channel, setup)?;
-    let input = Input { series: &series, rate: rate.as_ref() };
-    wildpoint_core::sweep::sweep(input, track.truth_for(&channel.name), setup, (param, values), stop)
+    let companions = companions(track, channel, &series, setup)?;
+    let input = Input { companions: &companions, ..Input::new(&series, rate.as_ref()) };
+    Ok(wildpoint_core::sweep::sweep(input, track.truth_for(&channel.name), setup, (param, values), stop)?)
 }

@@ -1,10 +1,12 @@
 //! Days and nanoseconds of the proleptic Gregorian calendar, in integers. Time zones are offsets; leap seconds are
 //! not counted, as in POSIX time.
 
+/// Seconds in a day.
+pub const SECONDS_PER_DAY: f64 = 86_400.0;
 /// Nanoseconds in a second.
 pub(crate) const SECOND: i64 = 1_000_000_000;
 /// Nanoseconds in a day.
-pub(crate) const DAY: i64 = 86_400 * SECOND;
+pub const DAY: i64 = 86_400 * SECOND;
 
 /// A date.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use super::calendar::{DAY, SECOND};
 use crate::error::{Error, Result, nearest};
 
 /// Ends of names that are units, and the units as people write them.
@@ -159,10 +160,10 @@ pub(crate) fn time_unit_ns(unit: &str) -> Option<i64> {
         "ns" => 1,
         "us" => 1_000,
         "ms" => 1_000_000,
-        "s" => 1_000_000_000,
-        "min" => 60_000_000_000,
-        "h" => 3_600_000_000_000,
-        "d" => 86_400_000_000_000,
+        "s" => SECOND,
+        "min" => 60 * SECOND,
+        "h" => 3_600 * SECOND,
+        "d" => DAY,
         _ => return None,
     })
 }

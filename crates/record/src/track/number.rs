@@ -34,7 +34,7 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// With the markers of the user beside [`MARKERS`].
+    /// With the markers for "no value" that the user names, beside the usual ones.
     #[must_use]
     pub fn new(decimal_comma: bool, markers: &[String]) -> Self {
         let mut reading = Self { decimal_comma, ..Self::default() };

@@ -9,7 +9,7 @@ use super::super::super::message::Effect;
 use super::super::super::model::{Browser, Dialog, Model, Overlay};
 use super::super::overlay::edit;
 use super::{effect, keep, loader, opening};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, on_one_line};
 use crate::session::folder_of;
 use crate::track::Source;
 
@@ -137,7 +137,7 @@ pub(super) fn listed(model: &mut Model, result: Result<Listing>) -> Vec<Effect> 
             browser.choice = from.map_or(0, |at| at + recent);
             (browser.folder, browser.entries) = (listing.folder, listing.entries);
         }
-        Err(e) => browser.said = Some((in_a_line(&e), true)),
+        Err(e) => browser.said = Some((on_one_line(&e), true)),
     }
     let effects = look(&browser);
     keep(model, Dialog::Browser(browser));
@@ -152,12 +152,7 @@ pub(super) fn seen(model: &mut Model, glance: &Glance, result: &Result<Seen>) {
     }
     let result = match result {
         Ok(seen) => Ok(seen.clone()),
-        Err(e) => Err(in_a_line(e)),
+        Err(e) => Err(on_one_line(e)),
     };
     browser.seen = Some((path.clone(), result));
-}
-
-/// An error without its line break.
-pub(super) fn in_a_line(e: &Error) -> String {
-    e.to_string().replace("\n  ", "; ")
 }

@@ -10,6 +10,7 @@ use super::super::super::model::{Dialog, ExportForm, ExportRow, Model, Overlay, 
 use super::super::files::beside;
 use super::super::overlay::edit;
 use super::{effect, keep};
+use crate::error::on_one_line;
 use crate::report::ReportForm;
 
 /// Opens the dialog, with names beside the record; what was saved as a session keeps its name.
@@ -68,7 +69,7 @@ fn write(model: &mut Model, form: ExportForm) -> Vec<Effect> {
     let outputs: Vec<Output> = on.map(|r| Output { kind: r.kind, path: r.path.clone() }).collect();
     let wrong = outputs.iter().filter(|o| o.kind == OutputKind::Report).find_map(|o| ReportForm::of(&o.path).err());
     if let Some(e) = wrong {
-        model.say(Tone::Error, e.to_string().replace("\n  ", "; "));
+        model.say(Tone::Error, on_one_line(&e));
         return keep(model, Dialog::Export(form));
     }
     if outputs.is_empty() {
@@ -88,7 +89,7 @@ pub(in super::super) fn one(model: &mut Model, kind: OutputKind, path: PathBuf, 
     if kind == OutputKind::Report
         && let Err(e) = ReportForm::of(&path)
     {
-        model.say(Tone::Error, e.to_string().replace("\n  ", "; "));
+        model.say(Tone::Error, on_one_line(&e));
         return Vec::new();
     }
     model.say(Tone::Done, format!("writing {} …", path.display()));

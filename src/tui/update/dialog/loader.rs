@@ -7,9 +7,8 @@ use super::super::super::files::{Glance, Purpose, Request, Seen, Task};
 use super::super::super::message::Effect;
 use super::super::super::model::{Dialog, LoaderForm, Model, Overlay};
 use super::super::overlay::edit;
-use super::browser::in_a_line;
 use super::{effect, keep, opening};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, on_one_line};
 use crate::track::{LoadOptions, Source};
 
 mod fields;
@@ -109,5 +108,5 @@ pub(super) fn seen(model: &mut Model, glance: &Glance, result: Result<Seen>) {
     if let Ok(seen) = &result {
         form.columns.clone_from(&seen.columns);
     }
-    form.seen = Some(result.map_err(|e| in_a_line(&e)));
+    form.seen = Some(result.map_err(|e| on_one_line(&e)));
 }

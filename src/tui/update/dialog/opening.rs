@@ -6,9 +6,8 @@ use super::super::super::files::{Purpose, Request, Task};
 use super::super::super::message::Effect;
 use super::super::super::model::{Dialog, Model, Overlay, Tone, Waiting};
 use super::super::super::words::counted;
-use super::browser::in_a_line;
 use super::{effect, keep};
-use crate::error::Result;
+use crate::error::{Result, on_one_line};
 use crate::track::printable;
 
 /// Opens the file of this name, asking when something is not saved.
@@ -54,7 +53,7 @@ pub(super) fn opened(model: &mut Model, ticket: u64, result: Result<Box<Model>>)
     match result {
         Ok(new) => replace(model, *new),
         Err(e) => {
-            let text = in_a_line(&e);
+            let text = on_one_line(&e);
             if let Some(dialog) = waiting.back {
                 let dialog = match *dialog {
                     Dialog::Browser(mut browser) => {

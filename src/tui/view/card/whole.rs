@@ -100,7 +100,8 @@ fn facts(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> V
 fn judgement(model: &Model, drawn: &Drawn, series: &Series<'_>, i: usize, facts: &mut Vec<Fact>) {
     let theme = &model.theme;
     let judged = &drawn.outcome.detection.judged;
-    let number = |values: &[f64]| values.get(i).copied().filter(|v| v.is_finite()).map_or("none".into(), short);
+    let written = |v: f64| short(drawn.outcome.detection.written(v));
+    let number = |values: &[f64]| values.get(i).copied().filter(|v| v.is_finite()).map_or("none".into(), written);
     facts.push(("expected", number(judged.expected()), theme.text));
     let tolerance = judged.tolerance(i).filter(|h| *h > 0.0).map_or("none".into(), short);
     facts.push(("tolerance", tolerance, theme.text));
@@ -113,8 +114,19 @@ fn judgement(model: &Model, drawn: &Drawn, series: &Series<'_>, i: usize, facts:
         facts.push(("ratio", text, theme.text));
     }
     let verdict = judged.verdict().get(i).copied().unwrap_or(Verdict::Missing);
-    let id = drawn.outcome.detection.setup.method.about().id;
-    facts.push(("method", format!("{id} says {}", verdict.word()), theme.text));
+    let detection = &drawn.outcome.detection;
+    match detection.objected(i) {
+        Some(objected) => {
+            let text = format!("{} says {}: {}", objected.by, verdict.word(), objected.evidence);
+            facts.push(("check", text, theme.text));
+            let id = detection.setup.method.about().id;
+            facts.push(("method", format!("{id} does not see it"), theme.text));
+        }
+        None => {
+            let id = detection.setup.method.about().id;
+            facts.push(("method", format!("{id} says {}", verdict.word()), theme.text));
+        }
+    }
     if let Some(d) = judged.directions().get(i) {
         for (name, direction) in [("forward", d.forward), ("backward", d.backward)] {
             facts.push((name, direction.map_or("not judged".into(), |d| Direction::word(d).to_owned()), theme.text));

@@ -11,7 +11,7 @@ use crate::math::student::student_upper;
 use crate::method::exceeds;
 use crate::stop::{Stop, Stopped};
 
-/// Critical values of `max |v - mean| / s` among `n` residuals (Grubbs 1969, eq. of section 2 of the methods page).
+/// Critical values of `max |v - mean| / s` among `n` residuals (Grubbs 1969, eq. of section 2 of `docs/methods.md`).
 #[derive(Debug)]
 pub(in crate::method) struct Critical {
     alpha: f64,

@@ -18,7 +18,7 @@ fn a_short_last_block_joins_the_one_before() {
 
 fn judged(method: &dyn Method, y: &[f64], change: &[(&str, Value)]) -> Judged {
     let t: Vec<f64> = (0..y.len()).map(|i| i as f64).collect();
-    let segment = Segment { t: &t, y, interval: 1.0, sigma: 0.0, floor: 0.0, rate: None };
+    let segment = Segment { t: &t, y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate: None };
     let mut settings = Settings::defaults(method.about().params);
     change.iter().for_each(|(key, value)| settings.set("it", key, *value).unwrap());
     method.judge(&segment, &settings, &Stop::never()).unwrap()

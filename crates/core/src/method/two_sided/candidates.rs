@@ -70,6 +70,15 @@ pub struct Closest {
     pub code: u8,
 }
 
+/// A sample with the tolerance it is judged by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounded {
+    /// Its value.
+    pub y: f64,
+    /// Within this of a prediction it is expected.
+    pub delta: f64,
+}
+
 /// The candidates over the newest accepted samples of one direction.
 #[derive(Debug, Clone)]
 pub struct Candidates {
@@ -81,8 +90,7 @@ pub struct Candidates {
     stretch: Vec<f64>,
     /// Samples in a start group.
     start: usize,
-    delta: f64,
-    /// Third differences of a start group stay below this.
+    /// Third differences of a start group stay below this, or below the tolerance of one of its samples.
     start_limit: f64,
     t: f64,
     /// Predictions of the candidates that take part, by their place in the list.
@@ -94,9 +102,9 @@ pub struct Candidates {
 const START_SCALES: f64 = 9.0;
 
 impl Candidates {
-    /// A model for these settings; `delta` and `sigma` in the units of the channel, `interval` in seconds.
+    /// A model for these settings; `sigma` in the units of the channel, `interval` in seconds.
     #[must_use]
-    pub fn new(settings: &Settings, delta: f64, sigma: f64, interval: f64) -> Self {
+    pub fn new(settings: &Settings, sigma: f64, interval: f64) -> Self {
         let list = candidates(settings);
         let smallest = list.iter().filter(|c| c.code != TWO_POINT).map(Candidate::need).min().unwrap_or(4);
         let room = list.iter().map(|c| c.points).max().unwrap_or(1);
@@ -106,8 +114,7 @@ impl Candidates {
             recent: Recent::new(room, interval),
             most: room,
             stretch: Vec::with_capacity(room + BATCH),
-            delta,
-            start_limit: delta.max(START_SCALES * sigma),
+            start_limit: START_SCALES * sigma,
             t: f64::NAN,
             predicted: [f64::NAN; 4],
             closest: Closest { expected: f64::NAN, code: NO_CANDIDATE },
@@ -132,8 +139,8 @@ impl Candidates {
     /// The prediction closest to `y` (within 1e-9 delta: the higher order), its distance, and whether the rounding of
     /// even times could change what follows from them. `newest` is the value of the newest point.
     #[inline]
-    fn closest_to(&self, y: f64, newest: f64) -> (Closest, f64, bool) {
-        let tie = TIE * self.delta;
+    fn closest_to(&self, Bounded { y, delta }: Bounded, newest: f64) -> (Closest, f64, bool) {
+        let tie = TIE * delta;
         let (mut best, mut distance) = (Closest { expected: f64::NAN, code: NO_CANDIDATE }, f64::INFINITY);
         let (mut margin, mut doubtful) = (0.0_f64, false);
         for ((candidate, _), &p) in self.list.iter().zip(&self.predicted) {
@@ -141,32 +148,34 @@ impl Candidates {
                 continue;
             }
             let d = (p - y).abs();
-            margin = margin.max(1e-10 * self.delta + 1e-6 * (p - newest).abs());
+            margin = margin.max(1e-10 * delta + 1e-6 * (p - newest).abs());
             doubtful |= (d - (distance - tie)).abs() <= margin;
             if d < distance - tie {
                 (best, distance) = (Closest { expected: p, code: candidate.code }, d);
             }
         }
-        doubtful |= (distance - self.delta * (1.0 - TIE)).abs() <= margin;
+        doubtful |= (distance - delta * (1.0 - TIE)).abs() <= margin;
         (best, distance, doubtful)
     }
 }
 
 impl Model for Candidates {
-    type Sample = f64;
+    type Sample = Bounded;
     type Prediction = Closest;
 
     fn group(&self) -> usize {
         self.start
     }
 
-    fn passed_over(&self, group: &[(f64, f64)]) -> usize {
-        passed_over_by_third(group, self.start_limit)
+    fn passed_over(&self, group: &[(f64, Bounded)]) -> usize {
+        let values: Vec<(f64, f64)> = group.iter().map(|(t, sample)| (*t, sample.y)).collect();
+        let delta = group.iter().map(|(_, sample)| sample.delta).fold(0.0, f64::max);
+        passed_over_by_third(&values, delta.max(self.start_limit))
     }
 
-    fn start(&mut self, group: &[(f64, f64)]) {
+    fn start(&mut self, group: &[(f64, Bounded)]) {
         self.recent.clear();
-        group.iter().for_each(|&(t, y)| self.recent.push(t, y));
+        group.iter().for_each(|&(t, sample)| self.recent.push(t, sample.y));
     }
 
     #[inline]
@@ -180,19 +189,19 @@ impl Model for Candidates {
     }
 
     #[inline]
-    fn answer(&mut self, t: f64, y: f64) -> Answer {
-        let (mut closest, mut distance, doubtful) = self.closest_to(y, self.recent.newest_value());
+    fn answer(&mut self, t: f64, sample: Bounded) -> Answer {
+        let (mut closest, mut distance, doubtful) = self.closest_to(sample, self.recent.newest_value());
         if doubtful {
             // Too close to call by weights for exactly even times: the verdict must not depend on the way it was
             // reached.
             self.extrapolate(true);
-            (closest, distance, _) = self.closest_to(y, self.recent.newest_value());
+            (closest, distance, _) = self.closest_to(sample, self.recent.newest_value());
         }
         self.closest = closest;
-        if reaches(distance, self.delta) {
+        if reaches(distance, sample.delta) {
             return Answer::Rejects;
         }
-        self.recent.push(t, y);
+        self.recent.push(t, sample.y);
         Answer::Accepts
     }
 }
@@ -201,7 +210,7 @@ impl Model for Candidates {
 const BATCH: usize = 128;
 
 impl Batch for Candidates {
-    fn take_in(&mut self, t: &[f64], y: &[f64], _: f64, said: &mut [Closest]) -> usize {
+    fn take_in(&mut self, t: &[f64], samples: &[Bounded], _: f64, said: &mut [Closest]) -> usize {
         // While the points of every candidate are even, all of them take part by their weights.
         if self.recent.even_points() < self.most {
             return 0;
@@ -211,22 +220,22 @@ impl Batch for Candidates {
         // waits until that is done with.
         self.stretch.clear();
         self.stretch.extend_from_slice(self.recent.newest_values(self.most));
-        self.stretch.extend_from_slice(&y[..even]);
+        self.stretch.extend(samples[..even].iter().map(|s| s.y));
         let stretch = std::mem::take(&mut self.stretch);
         let mut taken = 0;
-        for (values, &y) in stretch.windows(self.most).zip(&y[..even]) {
+        for (values, &sample) in stretch.windows(self.most).zip(&samples[..even]) {
             for ((_, extrapolator), predicted) in self.list.iter_mut().zip(&mut self.predicted) {
                 *predicted = extrapolator.next(values);
             }
-            let (closest, distance, doubtful) = self.closest_to(y, values[values.len() - 1]);
-            if doubtful || reaches(distance, self.delta) {
+            let (closest, distance, doubtful) = self.closest_to(sample, values[values.len() - 1]);
+            if doubtful || reaches(distance, sample.delta) {
                 break;
             }
             said[taken] = closest;
             taken += 1;
         }
         self.stretch = stretch;
-        t[..taken].iter().zip(y).for_each(|(&t, &y)| self.recent.push(t, y));
+        t[..taken].iter().zip(samples).for_each(|(&t, sample)| self.recent.push(t, sample.y));
         taken
     }
 }
@@ -239,7 +248,7 @@ mod tests {
 
     /// Parabola and line (in this order) with delta 1, which predict these values.
     fn predicting(parabola: f64, line: f64) -> Candidates {
-        let mut model = Candidates::new(&Settings::defaults(TwoSided.about().params), 1.0, 0.1, 1.0);
+        let mut model = Candidates::new(&Settings::defaults(TwoSided.about().params), 0.1, 1.0);
         model.predicted[..2].copy_from_slice(&[parabola, line]);
         model
     }
@@ -247,7 +256,9 @@ mod tests {
     /// Section 6, step 3: the candidate that came closest, within 1e-9 delta the higher order.
     #[test]
     fn of_candidates_equally_close_the_higher_order_is_remembered() {
-        let code = |parabola: f64, line: f64| predicting(parabola, line).closest_to(0.0, 0.0).0.code;
+        let code = |parabola: f64, line: f64| {
+            predicting(parabola, line).closest_to(Bounded { y: 0.0, delta: 1.0 }, 0.0).0.code
+        };
         assert_eq!(code(0.5, 0.5), 2);
         assert_eq!(code(0.5, 0.5 - 0.5e-9), 2, "within 1e-9 delta");
         assert_eq!(code(0.5, 0.5 - 2e-9), 1);
@@ -259,7 +270,9 @@ mod tests {
     /// the exact one.
     #[test]
     fn a_prediction_near_a_limit_is_doubtful() {
-        let doubtful = |parabola: f64, line: f64, newest: f64| predicting(parabola, line).closest_to(0.0, newest).2;
+        let doubtful = |parabola: f64, line: f64, newest: f64| {
+            predicting(parabola, line).closest_to(Bounded { y: 0.0, delta: 1.0 }, newest).2
+        };
         assert!(!doubtful(0.5, 0.9, 0.5));
         // A distance of delta, less its tie.
         assert!(doubtful(1.0 - 1e-9, 3.0, 1.0));

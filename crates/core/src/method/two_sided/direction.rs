@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::candidates::{Candidates, Closest, NO_CANDIDATE};
+use super::candidates::{Bounded, Candidates, Closest, NO_CANDIDATE};
 use crate::math::pieces;
 use crate::method::predictor::{Answer, Engine, Sink, feed};
 use crate::method::{Direction, Restart, Segment, Way};
@@ -87,14 +87,21 @@ impl Sink<Closest> for OneWay {
     }
 }
 
-/// Runs a model over a segment in one direction.
+/// Runs a model over a segment in one direction; `delta(i)` is the tolerance of sample i.
 ///
 /// # Errors
 /// [`Stopped`] as soon as nobody waits for the result any more.
-pub fn run(model: Candidates, segment: &Segment<'_>, max_run: usize, way: Way, stop: &Stop) -> Result<OneWay, Stopped> {
+pub fn run(
+    model: Candidates,
+    segment: &Segment<'_>,
+    delta: impl Fn(usize) -> f64,
+    max_run: usize,
+    way: Way,
+    stop: &Stop,
+) -> Result<OneWay, Stopped> {
     let n = segment.len();
     let mut page = OneWay::new(n, way, stop)?;
     let mut engine = Engine::new(model, segment.interval, max_run);
-    feed(&mut engine, segment.t, |i| segment.y[i], way, &mut page, stop)?;
+    feed(&mut engine, segment.t, |i| Bounded { y: segment.y[i], delta: delta(i) }, way, &mut page, stop)?;
     Ok(page)
 }

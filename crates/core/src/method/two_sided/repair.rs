@@ -79,7 +79,7 @@ mod tests {
     use crate::param::Settings;
 
     fn segment<'a>(t: &'a [f64], y: &'a [f64]) -> Segment<'a> {
-        Segment { t, y, interval: 1.0, sigma: 1.0, floor: 0.0, rate: None }
+        Segment { t, y, interval: 1.0, sigma: 1.0, floor: 0.0, floors: &[], objections: &[], rate: None }
     }
 
     /// Section 6, Repair: the two-point line only for a single outlier with no lost sample beside it.

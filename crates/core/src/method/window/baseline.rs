@@ -52,7 +52,7 @@ mod tests {
     use crate::math::order::median;
 
     fn segment<'a>(t: &'a [f64], y: &'a [f64]) -> Segment<'a> {
-        Segment { t, y, interval: 1.0, sigma: 0.0, floor: 0.0, rate: None }
+        Segment { t, y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate: None }
     }
 
     /// The page's formulas, one by one.

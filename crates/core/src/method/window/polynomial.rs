@@ -227,7 +227,7 @@ mod tests {
             let t: Vec<f64> =
                 (0..y.len()).map(|i| i as f64 + if even { gap(i) } else { 0.3 * (i % 3) as f64 }).collect();
             let rule = PolyRule { width, order, feedback, guard: guard && feedback, k: 2.3 };
-            let segment = Segment { t: &t, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, rate: None };
+            let segment = Segment { t: &t, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate: None };
             let judged = judge(&rule, &segment, &Stop::never()).unwrap();
             let (verdict, expected, own) = plain(&t, &y, &rule);
             prop_assert_eq!(&judged.verdict, &verdict);

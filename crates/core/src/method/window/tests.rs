@@ -71,7 +71,7 @@ proptest! {
             width, edge, detrend: false, pooled, feedback, k: 2.5,
         };
         let t: Vec<f64> = (0..noise.len()).map(|i| i as f64).collect();
-        let segment = Segment { t: &t, y: &noise, interval: 1.0, sigma: 0.0, floor: 0.0, rate: None };
+        let segment = Segment { t: &t, y: &noise, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate: None };
         let judged = judge(&rule, &segment, &Stop::never()).unwrap();
         let (flags, expected) = plain(&noise, &rule);
         for c in 0..noise.len() {
@@ -105,7 +105,8 @@ fn a_large_offset_and_a_slope_change_nothing() {
     for (spread, center) in [(Spread::Mad, Center::Median), (Spread::Rms, Center::Mean)] {
         let rule = Rule { spread, center, ..rule() };
         let of = |y: &[f64]| {
-            let segment = Segment { t: &t, y, interval: 1.0, sigma: 0.0, floor: 0.0, rate: None };
+            let segment =
+                Segment { t: &t, y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate: None };
             judge(&rule, &segment, &Stop::never()).unwrap()
         };
         let (near, far) = (of(&y), of(&far));
@@ -119,7 +120,8 @@ fn a_large_offset_and_a_slope_change_nothing() {
 fn an_abandoned_judgement_stops() {
     let newest = std::sync::Arc::new(std::sync::atomic::AtomicU64::new(2));
     let y = [1.0; 100];
-    let segment = Segment { t: &y, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, rate: None };
+    let segment =
+        Segment { t: &y, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate: None };
     assert_eq!(judge(&rule(), &segment, &Stop::when_superseded(newest, 1)), Err(Stopped));
 }
 
@@ -158,7 +160,8 @@ fn what_a_window_holds_beyond_the_ends_is_as_the_setting_says() {
     use crate::method::{Method, mean_window::MeanWindow};
     use crate::param::Settings;
     let (t, y) = ([0.0, 1.0, 2.0, 3.0, 4.0], [1.0, 5.0, 3.0, 4.0, 2.0]);
-    let segment = Segment { t: &t, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, rate: None };
+    let segment =
+        Segment { t: &t, y: &y, interval: 1.0, sigma: 0.0, floor: 0.0, floors: &[], objections: &[], rate: None };
     for (edge, expected) in [("reflect", 11.0 / 3.0), ("zero", 2.0), ("shrink", 3.0)] {
         let mut settings = Settings::defaults(MeanWindow.about().params);
         for (key, text) in [("edge", edge), ("window", "3"), ("detrend", "off"), ("feedback", "false")] {

@@ -7,15 +7,17 @@ use std::sync::OnceLock;
 
 use serde::Deserialize;
 use toml::{Spanned, Table};
+use wildpoint_core::error::Error as CoreError;
 
 use super::{FORMAT, OLDEST};
+use crate::check::{Applied, find as find_check};
 use crate::error::{Error, Result};
 use crate::memory::Share;
-use crate::param::{Kind, Param, Settings, Value, find};
+use crate::param::{Kind, Numbers, Param, Settings, Value, find};
 use crate::repair;
 use crate::review::{Decision, Decisions, Ruling};
 use crate::session::digest::{Digest, WrittenDigest};
-use crate::session::{Data, Plan, Recorded, Session, Setup, folder_of, method_of_id, tidied};
+use crate::session::{Data, Plan, Preparation, Recorded, Session, Setup, folder_of, is_period, method_of_id, tidied};
 use crate::track::{DASH, LoadOptions, Source, Worded};
 
 /// A session file larger than this is none.
@@ -93,7 +95,29 @@ struct WrittenChannel {
     #[serde(default)]
     repair: BTreeMap<String, Spanned<toml::Value>>,
     #[serde(default)]
+    checks: Vec<Spanned<WrittenCheck>>,
+    #[serde(default)]
+    period: Option<Spanned<f64>>,
+    #[serde(default)]
+    exclude_decided: bool,
+    #[serde(default)]
     decisions: Vec<Spanned<WrittenDecision>>,
+}
+
+#[derive(Deserialize)]
+struct WrittenCheck {
+    check: String,
+    #[serde(default)]
+    channels: Vec<String>,
+    #[serde(default = "yes")]
+    on: bool,
+    /// The knobs of the check.
+    #[serde(flatten)]
+    settings: BTreeMap<String, toml::Value>,
+}
+
+fn yes() -> bool {
+    true
 }
 
 #[derive(Deserialize)]
@@ -306,8 +330,37 @@ impl Reader<'_> {
             decisions.set(row, Some(Decision { ruling, note: d.note.clone(), said: None }));
             written.push(d);
         }
-        let setup = Setup { method, settings, rate: channel.rate, repair };
+        let preparation = Preparation {
+            checks: channel.checks.into_iter().map(|check| self.check(check)).collect::<Result<_>>()?,
+            period: channel.period.map(|period| self.period(&period)).transpose()?,
+            exclude_decided: channel.exclude_decided,
+        };
+        let setup = Setup { method, settings, rate: channel.rate, repair, preparation };
         Ok((Plan { channel: channel.name, setup, decisions }, written))
+    }
+
+    fn check(&self, written: Spanned<WrittenCheck>) -> Result<Applied> {
+        let line = self.line(written.span());
+        let WrittenCheck { check, channels, on, settings } = written.into_inner();
+        let mut applied = Applied::new(find_check(&check).map_err(|e| self.wrap(line, e))?);
+        (applied.channels, applied.on) = (channels, on);
+        for (key, value) in settings {
+            find(applied.check.about().params, applied.id(), &key)
+                .and_then(|param| value_of(param, &value))
+                .and_then(|value| applied.set(&key, value))
+                .map_err(|e| self.wrap(line, e))?;
+        }
+        applied.verify().map_err(|e| self.wrap(line, e))?;
+        Ok(applied)
+    }
+
+    fn period(&self, period: &Spanned<f64>) -> Result<f64> {
+        let value = *period.get_ref();
+        if is_period(value) {
+            return Ok(value);
+        }
+        let what = format!("period = {value}: not a period");
+        Err(fault(self.path, self.line(period.span()), what, "give a positive number in units of the channel"))
     }
 
     fn fill(
@@ -332,31 +385,49 @@ impl Reader<'_> {
     }
 
     /// A complaint about a value, with the line it stands on.
-    fn wrap(&self, line: Option<usize>, e: Error) -> Error {
+    fn wrap(&self, line: Option<usize>, e: CoreError) -> Error {
         match e {
-            Error::Usage { what, help } => fault(self.path, line, what, &help),
-            other => other,
+            CoreError::Usage { what, help } => fault(self.path, line, what, &help),
+            other => other.into(),
         }
     }
 }
 
 /// The value as the parameter takes it: a word only where it has words, a number only where it has numbers.
-fn value_of(param: &Param, value: &toml::Value) -> Result<Value> {
+fn value_of(param: &Param, value: &toml::Value) -> std::result::Result<Value, CoreError> {
     let words: &[&str] = match param.kind {
         Kind::Choice(words) | Kind::RealOr { words, .. } => words,
         Kind::WholeOrOff { .. } => &["off"],
-        Kind::Whole { .. } | Kind::Real { .. } | Kind::Switch => &[],
+        Kind::Whole { .. } | Kind::Real { .. } | Kind::Switch | Kind::Numbers => &[],
     };
     match value {
         toml::Value::Integer(n) => param.accept(Value::Whole(*n)),
         toml::Value::Float(x) => param.accept(Value::Real(*x)),
         toml::Value::Boolean(b) => param.accept(Value::Switch(*b)),
+        toml::Value::Array(list) => {
+            numbers(list).map_or_else(|| Err(illegal(param, value)), |numbers| param.accept(Value::Numbers(numbers)))
+        }
         toml::Value::String(s) if words.contains(&s.as_str()) => param.parse(s),
-        other => Err(Error::usage(
-            format!("{} = {other}: not a legal value", param.key),
-            format!("{} takes {}", param.key, param.range()),
-        )),
+        other => Err(illegal(param, other)),
     }
+}
+
+fn illegal(param: &Param, value: &toml::Value) -> CoreError {
+    CoreError::usage(
+        format!("{} = {value}: not a legal value", param.key),
+        format!("{} takes {}", param.key, param.range()),
+    )
+}
+
+/// A list of numbers; none when something else is in it.
+fn numbers(list: &[toml::Value]) -> Option<Numbers> {
+    let number = |value: &toml::Value| match value {
+        #[expect(clippy::cast_precision_loss, reason = "settings typed by a person are far below 2^53")]
+        toml::Value::Integer(n) => Some(*n as f64),
+        toml::Value::Float(x) => Some(*x),
+        _ => None,
+    };
+    Numbers::of(&list.iter().map(number).collect::<Option<Vec<f64>>>()?)
 }
 
 fn line_of(text: &str, offset: usize) -> usize {

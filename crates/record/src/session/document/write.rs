@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::FORMAT;
 use crate::error::{Error, Result};
 use crate::param::{Param, Settings, Value};
-use crate::session::{Data, Digest, Plan, Session, folder_of};
+use crate::session::{Data, Digest, Plan, Preparation, Session, folder_of};
 use crate::track::{Source, Worded, is_hidden};
 
 /// The session file, with its digest, for a session that lies at `path`. `texts` gives, for each plan, the texts of time and value of
@@ -43,6 +43,7 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
         }
         line(format!("settings = {}", inline(&plan.setup.settings)));
         line(format!("repair = {}", inline(&plan.setup.repair)));
+        preparation(&plan.setup.preparation).into_iter().for_each(&mut line);
         decisions(plan, texts).into_iter().for_each(&mut line);
     }
     if let Some(result) = &session.result {
@@ -95,6 +96,34 @@ fn loading(data: &Data) -> Vec<String> {
     lines
 }
 
+/// The lines of what is done with a channel before its method; none where nothing is.
+fn preparation(preparation: &Preparation) -> Vec<String> {
+    let mut lines = Vec::new();
+    if !preparation.checks.is_empty() {
+        lines.push("checks = [".to_owned());
+        for applied in &preparation.checks {
+            let mut text = format!("  {{ check = {}", quoted(applied.id()));
+            if !applied.channels.is_empty() {
+                let names: Vec<String> = applied.channels.iter().map(|name| quoted(name)).collect();
+                let _ = write!(text, ", channels = [{}]", names.join(", "));
+            }
+            if !applied.on {
+                text.push_str(", on = false");
+            }
+            for (param, value) in applied.settings.iter() {
+                let _ = write!(text, ", {}", assignment(param, value));
+            }
+            lines.push(text + " },");
+        }
+        lines.push("]".into());
+    }
+    lines.extend(preparation.period.map(|period| format!("period = {period:?}")));
+    if preparation.exclude_decided {
+        lines.push("exclude_decided = true".into());
+    }
+    lines
+}
+
 /// The lines of the decisions of a channel; none where there are none.
 fn decisions(plan: &Plan, texts: &[(String, String)]) -> Vec<String> {
     if plan.decisions.is_empty() {
@@ -141,11 +170,15 @@ fn reference(source: &Source, session: &Path) -> Result<String> {
 }
 
 fn inline(settings: &Settings) -> String {
-    let one = |(p, v): (&Param, Value)| match v {
-        Value::Word(word) => format!("{} = {}", p.key, quoted(word)),
-        other => format!("{} = {other}", p.key),
-    };
-    format!("{{ {} }}", settings.iter().map(one).collect::<Vec<_>>().join(", "))
+    format!("{{ {} }}", settings.iter().map(|(p, v)| assignment(p, v)).collect::<Vec<_>>().join(", "))
+}
+
+fn assignment(param: &Param, value: Value) -> String {
+    match value {
+        Value::Word(word) => format!("{} = {}", param.key, quoted(word)),
+        Value::Numbers(list) => format!("{} = {:?}", param.key, list.as_slice()),
+        other => format!("{} = {other}", param.key),
+    }
 }
 
 pub(in crate::session) fn quoted(text: &str) -> String {

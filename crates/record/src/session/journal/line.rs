@@ -5,6 +5,7 @@ use sha2::{Digest, Sha256};
 
 use super::written::{entry_of, entry_text, foreign_of, header_of, header_text};
 use super::{Entry, Header};
+use crate::track::hex;
 
 /// Hexadecimal digits of a sum: 64 bits against accidents, not against forgers.
 const DIGITS: usize = 16;
@@ -106,5 +107,5 @@ fn checked<'a>(line: &'a [u8], before: &str) -> Option<&'a str> {
 
 fn sum(before: &str, text: &str) -> String {
     let digest = Sha256::new().chain_update(before).chain_update(text).finalize();
-    digest.iter().take(DIGITS / 2).map(|byte| format!("{byte:02x}")).collect()
+    hex(digest.get(..DIGITS / 2).unwrap_or_default())
 }

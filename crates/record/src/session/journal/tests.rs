@@ -259,3 +259,18 @@ fn rows_outside_the_record_and_words_that_mean_nothing_are_not_taken_in() {
     let other = written::header_text(&first).replace("\"format\":1", "\"format\":2");
     assert_eq!((written::header_of(&other), written::header_of(&written::header_text(&first))), (None, Some(first)));
 }
+
+#[test]
+fn what_is_done_before_the_method_comes_back() {
+    use crate::check::Applied;
+    let mut plan = session().plans.swap_remove(1);
+    let preparation = &mut plan.setup.preparation;
+    for text in ["missing-values:values=-9999,1e20", "stuck:fail=20", "position:channels=a,b,speed=30", "hampel:k=7"] {
+        preparation.add(Applied::parse(text).unwrap());
+    }
+    preparation.checks[1].on = false;
+    preparation.checks[2].channels[0] = "a, \"b\"".into();
+    (preparation.period, preparation.exclude_decided) = (Some(std::f64::consts::TAU), true);
+    let entry = Entry::of(&plan, &[]);
+    assert_eq!(written::entry_of(&written::entry_text(&entry), ROWS), Some(entry));
+}

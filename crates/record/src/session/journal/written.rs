@@ -6,10 +6,11 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 use super::{Base, Entry, Foreign, Header};
+use crate::check::{Applied, find};
 use crate::method::Verdict;
 use crate::param::Settings;
 use crate::review::{Decision, Decisions, Ruling};
-use crate::session::{Plan, Preset, Setup, method_of_id};
+use crate::session::{Plan, Preparation, Preset, Setup, is_period, method_of_id};
 
 /// The version of the lines that this program writes and reads.
 const FORMAT: u32 = 1;
@@ -100,6 +101,25 @@ struct WrittenSetup {
     rate: Option<String>,
     settings: BTreeMap<String, String>,
     repair: BTreeMap<String, String>,
+    /// Checks as `--check` has them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    checks: Vec<WrittenCheck>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    period: Option<f64>,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    exclude_decided: bool,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenCheck {
+    check: String,
+    /// Names may hold any character, so that they stand apart.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    channels: Vec<String>,
+    settings: BTreeMap<String, String>,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    off: bool,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -227,11 +247,20 @@ fn written(row: u32, decision: Option<&Decision>) -> WrittenDecision {
 
 fn written_setup(setup: &Setup) -> WrittenSetup {
     let texts = |s: &Settings| s.iter().map(|(p, v)| (p.key.to_owned(), v.to_string())).collect();
+    let check = |applied: &Applied| WrittenCheck {
+        check: applied.id().to_owned(),
+        channels: applied.channels.clone(),
+        settings: texts(&applied.settings),
+        off: !applied.on,
+    };
     WrittenSetup {
         method: setup.method.about().id.to_owned(),
         rate: setup.rate.clone(),
         settings: texts(&setup.settings),
         repair: texts(&setup.repair),
+        checks: setup.preparation.checks.iter().map(check).collect(),
+        period: setup.preparation.period,
+        exclude_decided: setup.preparation.exclude_decided,
     }
 }
 
@@ -257,6 +286,17 @@ impl WrittenSetup {
         let fill = |settings: &mut Settings, texts: BTreeMap<String, String>| {
             texts.iter().all(|(key, text)| settings.set_text("journal", key, text).is_ok())
         };
-        (fill(&mut setup.settings, self.settings) && fill(&mut setup.repair, self.repair)).then_some(setup)
+        let read = |written: WrittenCheck| {
+            let mut applied = Applied::new(find(&written.check).ok()?);
+            (applied.channels, applied.on) = (written.channels, !written.off);
+            (fill(&mut applied.settings, written.settings) && applied.verify().is_ok()).then_some(applied)
+        };
+        setup.preparation = Preparation {
+            checks: self.checks.into_iter().map(read).collect::<Option<_>>()?,
+            period: self.period,
+            exclude_decided: self.exclude_decided,
+        };
+        let whole = self.period.is_none_or(is_period);
+        (whole && fill(&mut setup.settings, self.settings) && fill(&mut setup.repair, self.repair)).then_some(setup)
     }
 }

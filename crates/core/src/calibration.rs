@@ -1,0 +1,218 @@
+//! Calibration: what the noise of a record is, measured on the record itself before any method judges it.
+//!
+//! Beyond the documents. Their noise scales assume white noise on a smooth track. Recorded channels are quantised, held,
+//! smoothed on board, quiet here and rough there; a scale from differences is then far too small. [`calibrate`] looks
+//! at the residuals of the record about its own neighbours instead, and finds for each sample the limit at which a
+//! residual stops being noise:
+//!
+//! 1. [`coast`]: a coarse test from both sides masks what both object to, so that wild points do not count as noise.
+//! 2. [`residual`]: the distance of each sample from the median of the interpolations between its neighbours on both
+//!    sides, in two windows, with what is left of curvature taken off.
+//! 3. [`background`]: the 95 % quantile of the residuals of the neighbourhood, which follows noise that changes.
+//! 4. [`threshold`]: the multiple of it at which the residuals of this record end and wild points begin.
+//!
+//! Steps 2 to 4 run three times, each time without the samples found so far.
+//!
+//! Before that, [`repeated`], [`stuck`] and [`wrap`] say which checks and which period a record asks for.
+
+use rayon::prelude::*;
+
+use crate::series::Series;
+use crate::stop::{Stop, Stopped};
+
+mod background;
+mod coast;
+pub mod repeated;
+mod residual;
+mod resolution;
+mod stretches;
+pub mod stuck;
+mod threshold;
+pub mod wrap;
+
+use background::background;
+use coast::coast;
+use residual::residuals;
+use resolution::resolution;
+pub use stretches::{local_interval, stretches};
+use threshold::{tail_weight, threshold};
+
+/// What is known of a channel before a method judges it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Calibration {
+    /// The smallest step that many neighbours share, in channel units; 0 where values are not on a grid.
+    pub resolution: f64,
+    /// Share of samples that repeat the value before them, from 0 to 1.
+    pub held: f64,
+    /// For each present sample the residual at which noise ends, in channel units; infinite where nothing is known.
+    pub limits: Vec<f64>,
+    /// For each present sample how far it lies outside of all that the neighbours on either side let expect, in channel
+    /// units; 0 inside. Where only one side has neighbours, a tenth of that.
+    pub objections: Vec<f64>,
+}
+
+/// A record holds values when at least this share of its samples repeats the one before.
+const HOLDS: f64 = 0.2;
+
+/// More lost samples in a row than this are a gap.
+const MAX_GAP: usize = 5;
+
+/// Half lengths of the windows of residuals: 21 and 41 samples.
+const WINDOWS: [usize; 2] = [10, 20];
+
+/// Noise is never taken for less than so many deviations of white noise …
+const WHITE: f64 = 4.0;
+
+/// … nor for less than so many steps of the resolution: a single step is rounding.
+const STEPS: f64 = 1.5;
+
+/// The record as calibration sees it.
+struct Record<'a> {
+    t: &'a [f64],
+    y: &'a [f64],
+    stretches: Vec<std::ops::Range<usize>>,
+    holds: bool,
+    resolution: f64,
+}
+
+impl Calibration {
+    /// The median of the limits, which is what an analyst would be told; none where nothing is known.
+    #[must_use]
+    pub fn typical_limit(&self) -> Option<f64> {
+        let mut finite: Vec<f64> = self.limits.iter().copied().filter(|l| l.is_finite()).collect();
+        let middle = finite.len() / 2;
+        (!finite.is_empty()).then(|| *finite.select_nth_unstable_by(middle, f64::total_cmp).1)
+    }
+}
+
+/// Calibrates a channel: a pure function of its times and values, the same on any number of threads.
+///
+/// # Errors
+/// [`Stopped`] as soon as nobody waits for the result any more.
+pub fn calibrate(series: &Series<'_>, stop: &Stop) -> Result<Calibration, Stopped> {
+    let (t, y) = (series.t.as_ref(), series.y.as_ref());
+    let held = share_held(y);
+    let record =
+        Record { t, y, stretches: stretches(t, Some(MAX_GAP)), holds: held >= HOLDS, resolution: resolution(y) };
+    stop.check()?;
+    let mut masked = coarse_mask(&record, stop)?;
+    let mut limits = round(&record, &mut masked, Round::First, stop)?;
+    for pass in [Round::Further, Round::Last] {
+        limits = round(&record, &mut masked, pass, stop)?;
+    }
+    coast(&record, &limits, &mut masked, stop)?;
+    let objections = residual::outside(&record, &masked, stop)?;
+    Ok(Calibration { resolution: record.resolution, held, limits, objections })
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Round {
+    /// The mask is coarse: quantiles that many wild points do not reach.
+    First,
+    Further,
+    Last,
+}
+
+/// What both sides object to by a scale from the nearest neighbours, which isolated wild points hardly inflate.
+fn coarse_mask(record: &Record<'_>, stop: &Stop) -> Result<Vec<bool>, Stopped> {
+    let nothing = vec![false; record.y.len()];
+    let near = residuals(record, &nothing, 3, stop)?;
+    let local = background(&near, &nothing, background::Span { half: 60, middle: 6 }, 0.5, stop)?;
+    let floor = (4.0 * quantile_of(&near, &nothing, 0.5)).max(STEPS * record.resolution);
+    let limits: Vec<f64> = local.iter().map(|scale| (5.5 * scale).max(floor)).collect();
+    let mut masked = nothing;
+    coast(record, &limits, &mut masked, stop)?;
+    Ok(masked)
+}
+
+/// One round: limits under the mask, and the mask that they give.
+fn round(record: &Record<'_>, masked: &mut Vec<bool>, pass: Round, stop: &Stop) -> Result<Vec<f64>, Stopped> {
+    let n = record.y.len();
+    let (wide, narrow) = (background::Span { half: 100, middle: 10 }, background::Span { half: 50, middle: 10 });
+    let first = pass == Round::First;
+    let lower = (STEPS * record.resolution).max(if first { 0.0 } else { WHITE * white_noise(record, masked) });
+    let mut least = vec![f64::INFINITY; n];
+    let mut scores = vec![f64::INFINITY; n];
+    let mut weight = 1.0;
+    for (index, half) in WINDOWS.into_iter().enumerate() {
+        let r = residuals(record, masked, half, stop)?;
+        // 3.4 medians-and-a-bit and 2 quantiles of 85 %: 2.9 deviations of normal noise either way.
+        let base = if first { 3.4 * quantile_of(&r, masked, 0.6) } else { 2.0 * quantile_of(&r, masked, 0.85) };
+        let mut base = base.max(lower);
+        if base <= 0.0 {
+            base = r.iter().copied().filter(|x| *x > 0.0).fold(f64::INFINITY, f64::min);
+        }
+        let limit: Vec<f64> = if first {
+            let local = background(&r, masked, wide, 0.6, stop)?;
+            local.iter().map(|x| base.max(1.9 * 2.4 * x)).collect()
+        } else {
+            let (far, near) = (background(&r, masked, wide, 0.95, stop)?, background(&r, masked, narrow, 0.95, stop)?);
+            far.iter().zip(&near).map(|(far, near)| base.max(1.3 * far).max(1.9 * near)).collect()
+        };
+        if index == 0 && !first {
+            let local = background(&r, masked, wide, 0.9, stop)?;
+            weight = tail_weight(&r, masked, &local, 0.3 * base);
+        }
+        scores.iter_mut().zip(&r).zip(&limit).for_each(|((s, r), l)| *s = s.min(r / l));
+        least.iter_mut().zip(&limit).for_each(|(all, l)| *all = all.min(*l));
+    }
+    if !first {
+        let outside = residual::outside(record, masked, stop)?;
+        scores.iter_mut().zip(&outside).zip(&least).for_each(|((s, o), l)| *s = s.min(o / (0.5 * l)));
+    }
+    let times = threshold(&scores, weight);
+    least.par_iter_mut().for_each(|l| *l *= times);
+    if pass != Round::Last {
+        let low = if first { times } else { 0.6 * times };
+        *masked = scores.iter().map(|s| *s >= low).collect();
+        let limits: Vec<f64> = least.iter().map(|l| 0.8 * l).collect();
+        coast(record, &limits, masked, stop)?;
+    }
+    Ok(least)
+}
+
+#[expect(clippy::cast_precision_loss, reason = "counts of samples are far below 2^53")]
+fn share_held(y: &[f64]) -> f64 {
+    #[expect(clippy::float_cmp, reason = "held values repeat to the bit")]
+    let held = y.windows(2).filter(|w| w[0] == w[1]).count();
+    held as f64 / y.len().saturating_sub(1).max(1) as f64
+}
+
+/// Deviation of white noise from third differences over unmasked neighbours; over the samples that are no repetition
+/// where the record holds values.
+fn white_noise(record: &Record<'_>, masked: &[bool]) -> f64 {
+    #[expect(clippy::float_cmp, reason = "held values repeat to the bit")]
+    let fresh = |i: &usize| !masked[*i] && (!record.holds || *i == 0 || record.y[*i] != record.y[*i - 1]);
+    let own: Vec<usize> = (0..record.y.len()).filter(fresh).collect();
+    let y = |i: usize| record.y[i];
+    let third = |w: &[usize]| (y(w[0]) - 3.0 * y(w[1]) + 3.0 * y(w[2]) - y(w[3])).abs() / 20_f64.sqrt();
+    // Neighbours in the record, so that no wild point and no gap lies between.
+    let near = |w: &&[usize]| record.holds || w[3] == w[0] + 3;
+    let mut all: Vec<f64> = own.windows(4).filter(near).map(third).collect();
+    if all.len() < 8 {
+        return 0.0;
+    }
+    let middle = all.len() / 2;
+    1.4826 * *all.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Quantile `q` of the unmasked residuals; 0 without any.
+fn quantile_of(r: &[f64], masked: &[bool], q: f64) -> f64 {
+    let mut own: Vec<f64> = r.iter().zip(masked).filter(|(_, m)| !**m).map(|(r, _)| *r).collect();
+    quantile(&mut own, q)
+}
+
+/// Quantile `q` of `values`, the one at or below; 0 without any.
+fn quantile(values: &mut [f64], q: f64) -> f64 {
+    if values.is_empty() {
+        return 0.0;
+    }
+    #[expect(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "counts of samples are far below 2^53, and 0 <= q <= 1"
+    )]
+    let at = (q * (values.len() - 1) as f64) as usize;
+    *values.select_nth_unstable_by(at, f64::total_cmp).1
+}

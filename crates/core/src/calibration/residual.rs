@@ -1,0 +1,147 @@
+//! How far samples lie from what their neighbours let expect.
+
+use rayon::prelude::*;
+
+use super::Record;
+use crate::stop::{Stop, Stopped};
+
+/// Samples in one piece of parallel work.
+const PIECE: usize = 2048;
+
+/// The distance of each sample from the median of the interpolations between the neighbours at equal places before and
+/// after it, `half` on each side, without the masked; then once more of what is left, which takes curvature off.
+/// Nothing is carried over a gap.
+pub(super) fn residuals(record: &Record<'_>, masked: &[bool], half: usize, stop: &Stop) -> Result<Vec<f64>, Stopped> {
+    let mut all = vec![0.0; record.y.len()];
+    for stretch in &record.stretches {
+        let (t, y) = (&record.t[stretch.clone()], &record.y[stretch.clone()]);
+        let masked = &masked[stretch.clone()];
+        let once = each(y.len(), stop, |i, near| {
+            interpolations(t, y, masked, (i, half), near);
+            if near.is_empty() { 0.0 } else { y[i] - upper_median(near) }
+        })?;
+        let twice = each(y.len(), stop, |i, near| {
+            let reach = i.min(y.len() - 1 - i).min(half).max(2);
+            let around = i.saturating_sub(reach)..y.len().min(i + reach + 1);
+            near.clear();
+            near.extend(around.filter(|j| *j != i && !masked[*j]).map(|j| once[j]));
+            (once[i] - if near.len() < 3 { 0.0 } else { median(near) }).abs()
+        })?;
+        all[stretch.clone()].copy_from_slice(&twice);
+    }
+    Ok(all)
+}
+
+/// `value(i, scratch)` for each of `0 .. n`, in parallel.
+fn each(n: usize, stop: &Stop, value: impl Fn(usize, &mut Vec<f64>) -> f64 + Sync) -> Result<Vec<f64>, Stopped> {
+    let mut all = vec![0.0; n];
+    all.par_chunks_mut(PIECE).enumerate().try_for_each(|(piece, out)| {
+        stop.check()?;
+        let mut scratch = Vec::with_capacity(64);
+        for (k, out) in out.iter_mut().enumerate() {
+            *out = value(piece * PIECE + k, &mut scratch);
+        }
+        Ok(())
+    })?;
+    Ok(all)
+}
+
+/// Values at sample `i` of the lines through one neighbour before and one after it, at equal places; near an end
+/// through pairs of whatever unmasked neighbours there are.
+fn interpolations(t: &[f64], y: &[f64], masked: &[bool], (i, half): (usize, usize), found: &mut Vec<f64>) {
+    found.clear();
+    let between = |a: usize, b: usize| y[a] + (t[i] - t[a]) / (t[b] - t[a]) * (y[b] - y[a]);
+    for j in 1..=half.min(i).min(y.len() - 1 - i) {
+        if !masked[i - j] && !masked[i + j] {
+            found.push(between(i - j, i + j));
+        }
+    }
+    if found.len() >= half.min(3) {
+        return;
+    }
+    found.clear();
+    let around = i.saturating_sub(2 * half)..y.len().min(i + 2 * half + 1);
+    let own: Vec<usize> = around.filter(|j| *j != i && !masked[*j]).collect();
+    if own.len() >= 4 {
+        let middle = own.len() / 2;
+        found.extend((0..middle).map(|k| between(own[k], own[k + middle])));
+    }
+}
+
+fn upper_median(values: &mut [f64]) -> f64 {
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+fn median(values: &mut [f64]) -> f64 {
+    let middle = values.len() / 2;
+    let upper = *values.select_nth_unstable_by(middle, f64::total_cmp).1;
+    if !values.len().is_multiple_of(2) {
+        return upper;
+    }
+    f64::midpoint(values[..middle].iter().copied().fold(f64::NEG_INFINITY, f64::max), upper)
+}
+
+/// Points of the lines by which a side expects a sample.
+const LINES: [usize; 2] = [2, 5];
+
+/// A side that has fewer unmasked samples than this cannot object; the other alone must do so by [`GROSS`] limits.
+const SIDE: usize = 2;
+
+/// Where one side alone objects, it must do so by so many times more.
+const GROSS: f64 = 10.0;
+
+/// How far each sample lies outside of all that the unmasked neighbours of either side let expect: lines through the
+/// nearest two and five of a side, and the nearest value where the record holds values. 0 inside; a tenth of it where
+/// only one side can object.
+pub(super) fn outside(record: &Record<'_>, masked: &[bool], stop: &Stop) -> Result<Vec<f64>, Stopped> {
+    let mut all = vec![0.0; record.y.len()];
+    for stretch in &record.stretches {
+        let own: Vec<usize> = stretch.clone().filter(|i| !masked[*i]).collect();
+        if own.len() < 6 {
+            continue;
+        }
+        let first = stretch.start;
+        all[stretch.clone()].par_chunks_mut(PIECE).enumerate().try_for_each(|(piece, out)| {
+            stop.check()?;
+            for (k, out) in out.iter_mut().enumerate() {
+                *out = outside_of(record, &own, first + piece * PIECE + k);
+            }
+            Ok(())
+        })?;
+    }
+    Ok(all)
+}
+
+fn outside_of(record: &Record<'_>, own: &[usize], i: usize) -> f64 {
+    let before = own.partition_point(|j| *j < i);
+    let after = own.partition_point(|j| *j <= i);
+    let (left, right) = (&own[..before], &own[after..]);
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut expect = |value: f64| (low, high) = (low.min(value), high.max(value));
+    if record.holds {
+        left.last().into_iter().chain(right.first()).for_each(|&nearest| expect(record.y[nearest]));
+    }
+    for points in LINES {
+        let nearest = [left.len().checked_sub(points).map(|from| &left[from..]), right.get(..points)];
+        nearest.into_iter().flatten().for_each(|used| expect(line_at(record, used, record.t[i])));
+    }
+    let distance = (record.y[i] - high).max(low - record.y[i]);
+    let distance = if distance.is_finite() { distance.max(0.0) } else { 0.0 };
+    if left.len() < SIDE || right.len() < SIDE { distance / GROSS } else { distance }
+}
+
+/// The least-squares line through these samples, at time `at`.
+#[expect(clippy::cast_precision_loss, reason = "a handful of points")]
+pub(super) fn line_at(record: &Record<'_>, points: &[usize], at: f64) -> f64 {
+    let n = points.len() as f64;
+    let mean = |x: &[f64]| points.iter().map(|&j| x[j]).sum::<f64>() / n;
+    let (t, y) = (mean(record.t), mean(record.y));
+    let (mut squares, mut products) = (0.0, 0.0);
+    for &j in points {
+        let dt = record.t[j] - t;
+        squares += dt * dt;
+        products += dt * (record.y[j] - y);
+    }
+    if squares > 0.0 { y + products / squares * (at - t) } else { y }
+}
