@@ -20,6 +20,8 @@ mod gaps;
 mod outcome;
 mod serialize;
 mod sight;
+#[cfg(test)]
+mod tests;
 
 use gaps::{GapPlaces, gaps_to_fill};
 pub use outcome::{Counts, Fill, Mark, Outcome, Place, Run};

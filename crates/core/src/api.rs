@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::analysis::{Detection, Input, Outcome, Place, Rows, settle};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::review::Decisions;
 use crate::series::Series;
 use crate::setup::Setup;
@@ -13,7 +13,7 @@ use crate::stop::Stop;
 /// from an [`Input`] that has one.
 ///
 /// # Errors
-/// [`Error::Usage`](crate::Error::Usage) when the method needs a rate and the input has none.
+/// [`Error::Usage`] when the method needs a rate and the input has none.
 ///
 /// ```
 /// use wildpoint_core::{Series, Setup, Verdict, detect};
@@ -32,10 +32,11 @@ pub fn detect<'a>(input: impl Into<Input<'a>>, setup: &Setup) -> Result<Detectio
     Detection::of(input.into(), setup, &Stop::never())
 }
 
-/// Repairs what a detection flags, as its setup says. [`settle`] does the same where an analyst has decided on samples.
+/// Repairs what a detection flags, and fills gaps, as its setup says. `t` are the times that the series was made of;
+/// [`settle`] does the same where an analyst has decided on samples.
 ///
 /// # Errors
-/// None that can occur: it is the result of [`settle`], which can be stopped.
+/// [`Error::Usage`] when there are fewer times than rows of the series.
 ///
 /// ```
 /// use wildpoint_core::{Series, Setup, detect, repair};
@@ -48,16 +49,20 @@ pub fn detect<'a>(input: impl Into<Input<'a>>, setup: &Setup) -> Result<Detectio
 /// let mut setup = Setup::standard();
 /// setup.repair.set_text("repair", "method", "linear")?;
 /// let series = Series::new(&t, &y);
-/// let outcome = repair(&series, detect(&series, &setup)?)?;
+/// let outcome = repair(&t, &series, detect(&series, &setup)?)?;
 /// assert_eq!(outcome.outliers, [40, 41]);
 /// let step = (y[42] - y[39]) / 3.0;
 /// assert!((outcome.fixes[0] - (y[39] + step)).abs() < 1e-9);
 /// assert_eq!((outcome.counts.flagged, outcome.counts.patches), (2, 1));
 /// # Ok::<(), wildpoint_core::Error>(())
 /// ```
-pub fn repair(series: &Series<'_>, detection: Detection) -> Result<Outcome> {
-    let seconds = series.seconds_of_rows();
-    let rows = Rows { seconds: &seconds, own: None };
+pub fn repair(t: &[f64], series: &Series<'_>, detection: Detection) -> Result<Outcome> {
+    let rows = series.len().checked_sub(1).map_or(0, |last| series.row(last) + 1);
+    if t.len() < rows {
+        let what = format!("{} times for a series of {rows} rows", t.len());
+        return Err(Error::usage(what, "give the times that the series was made of"));
+    }
+    let rows = Rows { seconds: t, own: None };
     Ok(settle(series, rows, Arc::new(detection), &Decisions::default(), &Stop::never())?)
 }
 
@@ -77,7 +82,7 @@ pub struct Cleaned {
 /// NaN is missing.
 ///
 /// # Errors
-/// [`Error::Usage`](crate::Error::Usage) when there are not as many values as times, when the times do not increase, or
+/// [`Error::Usage`] when there are not as many values as times, when the times do not increase, or
 /// when the method needs the rate of the channel: [`detect`] takes that.
 ///
 /// ```
@@ -117,7 +122,6 @@ pub fn clean(t: &[f64], y: &[f64], setup: &Setup) -> Result<Cleaned> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Error;
     use crate::method::find;
     use crate::setup::Preset;
 
@@ -138,10 +142,10 @@ mod tests {
         let cleaned = clean(&t, &y, &setup).unwrap();
         assert_eq!(cleaned.outliers, [wild]);
         assert!((cleaned.values[30] - f64::midpoint(y[29], y[31])).abs() < 1e-9, "{before} {}", cleaned.values[30]);
-        // `repair` knows the rows from the series alone.
         let series = Series::new(&t, &y);
-        let outcome = repair(&series, detect(&series, &setup).unwrap()).unwrap();
-        assert_eq!(outcome.fills, cleaned.outcome.fills);
+        let detection = detect(&series, &setup).unwrap();
+        assert_eq!(repair(&t, &series, detection.clone()).unwrap().fills, cleaned.outcome.fills);
+        assert!(matches!(repair(&t[..79], &series, detection), Err(Error::Usage { .. })));
     }
 
     #[test]

@@ -84,17 +84,6 @@ impl<'a> Series<'a> {
         Ok(Self::new(t, y))
     }
 
-    /// The time of each row, from the first to that of the last sample; NaN for rows without a sample.
-    #[must_use]
-    pub fn seconds_of_rows(&self) -> Cow<'_, [f64]> {
-        let Some(rows) = self.rows.as_deref() else { return Cow::Borrowed(&self.t) };
-        let mut seconds = vec![f64::NAN; rows.last().map_or(0, |last| *last as usize + 1)];
-        for (&row, &time) in rows.iter().zip(self.t.iter()) {
-            seconds[row as usize] = time;
-        }
-        Cow::Owned(seconds)
-    }
-
     /// The same samples, owned; none when every row is present, in which case there is nothing to keep but the
     /// interval.
     #[must_use]

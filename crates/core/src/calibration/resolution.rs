@@ -38,7 +38,7 @@ mod tests {
 
     #[test]
     fn the_step_that_many_share_is_the_resolution() {
-        let mut y: Vec<f64> = (0..200).map(|i| 25.0 * f64::from(i * 37 % 11)).collect();
+        let mut y: Vec<f64> = (0..200).map(|i| 25.0 * f64::from(i * i % 11)).collect();
         assert!((resolution(&y) - 25.0).abs() < 1e-9);
         // One rounded decimal and one fill value do not decide it.
         (y[17], y[90]) = (y[17] + 0.001, 1e20);

@@ -1,0 +1,54 @@
+use super::*;
+use crate::check::Applied;
+
+/// A wavy channel of 400 samples with a fill value at every 20th.
+fn filled() -> (Vec<f64>, Vec<f64>) {
+    let t: Vec<f64> = (0..400).map(f64::from).collect();
+    let y = (0..400)
+        .map(|i| if i % 20 == 7 { -9999.0 } else { (0.05 * f64::from(i)).sin() + f64::from(i * i % 13) * 0.01 });
+    (t, y.collect())
+}
+
+fn standard(checks: &[&str]) -> Setup {
+    let mut setup = Setup::standard();
+    setup.settings.set_text("two-sided", "floor", "record").unwrap();
+    checks.iter().for_each(|text| setup.preparation.add(Applied::parse(text).unwrap()));
+    setup
+}
+
+#[test]
+fn a_channel_is_calibrated_on_what_its_method_sees() {
+    let (t, y) = filled();
+    let series = Series::new(&t, &y);
+    let (all, checked) = (standard(&[]), standard(&["missing-values:values=-9999"]));
+    let before = Detection::of(Input::from(&series), &all, &Stop::never()).unwrap();
+    let alone = Detection::of(Input::from(&series), &checked, &Stop::never()).unwrap();
+    let limits = |detection: &Detection| detection.calibration.as_ref().unwrap().limits.len();
+    assert_eq!((limits(&before), limits(&alone)), (400, 380));
+    // The calibration of other samples is not taken over.
+    let after = Detection::calibrated(Input::from(&series), &checked, Some(&before), &Stop::never()).unwrap();
+    assert_eq!(after.calibration, alone.calibration);
+    assert_eq!(after.judged.verdict(), alone.judged.verdict());
+    assert_eq!(after.scales, alone.scales);
+}
+
+#[test]
+fn a_channel_is_calibrated_once_while_its_method_sees_the_same_samples() {
+    let (t, y) = filled();
+    let series = Series::new(&t, &y);
+    let mut setup = standard(&["missing-values:values=-9999"]);
+    let before = Detection::of(Input::from(&series), &setup, &Stop::never()).unwrap();
+    setup.settings.set_text("two-sided", "k", "6").unwrap();
+    let after = Detection::calibrated(Input::from(&series), &setup, Some(&before), &Stop::never()).unwrap();
+    assert!(Arc::ptr_eq(before.calibration.as_ref().unwrap(), after.calibration.as_ref().unwrap()));
+}
+
+#[test]
+fn a_channel_of_which_nothing_is_left_is_calibrated_to_nothing() {
+    let (t, y) = ([0.0, 1.0, 2.0], [-9999.0; 3]);
+    let series = Series::new(&t, &y);
+    let setup = standard(&["missing-values:values=-9999"]);
+    let detection = Detection::of(Input::from(&series), &setup, &Stop::never()).unwrap();
+    assert!(detection.judged.verdict().iter().all(|v| *v == Verdict::Outlier));
+    assert_eq!(detection.calibration.unwrap().typical_limit(), None);
+}
