@@ -273,6 +273,8 @@ fn gating_again_is_judging_again() {
     let record = eventful(14);
     for method in METHODS {
         for mut settings in presets(*method) {
+            // With a floor for each sample the multiplier does more than gate.
+            settings.set_text(id(*method), "floor", "auto").expect("a legal value");
             let Some(key) = method.gate(&settings) else { continue };
             let gated = Gated::new(record.judge(*method, &settings), Some(settings.real(key)));
             for k in [1.7, 3.0, 9.5] {
@@ -342,7 +344,9 @@ fn what_is_said_of_a_sample_stays_with_it_when_other_segments_cannot_be_judged()
     // The middle by itself, on the same times.
     let middle = Record { t: cut.t[3..1498].to_vec(), y: cut.y[3..1498].to_vec(), rate: cut.rate[3..1498].to_vec() };
     for method in METHODS.iter().filter(|m| id(**m) != "matched") {
-        for settings in presets(*method) {
+        for mut settings in presets(*method) {
+            // A calibration is of the whole record.
+            settings.set_text(id(*method), "floor", "auto").expect("a legal value");
             let (all, alone) = (cut.judge(*method, &settings), middle.judge(*method, &settings));
             let name = id(*method);
             assert!(all.verdict[3..1498] == alone.verdict, "{name}: verdicts");

@@ -19,6 +19,8 @@ fn method(id: &str) -> &'static dyn Method {
 
 fn settings(id: &str, changes: &[(&str, &str)]) -> Settings {
     let mut settings = Settings::defaults(method(id).about().params);
+    // What the methods page says of a model is about one scale for all samples.
+    settings.set_text(id, "floor", "auto").expect("a legal value");
     for (key, text) in changes {
         settings.set_text(id, key, text).expect("a legal value");
     }

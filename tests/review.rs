@@ -78,6 +78,7 @@ impl Bench {
                         self.take(Message::Stepped { plan, steps: Box::new(steps) });
                     }
                 }
+                Effect::Redraw => {}
                 other => panic!("{other:?} is nothing for a review"),
             }
         }

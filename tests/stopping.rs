@@ -108,7 +108,8 @@ fn cuts_and_scales_are_looked_for_in_pieces() {
     let series = Series::new(&record.t, &record.y);
     let whole = 0..series.len();
     let all = std::slice::from_ref(&whole);
-    let settings = Settings::defaults(METHODS[0].about().params);
+    let mut settings = Settings::defaults(METHODS[0].about().params);
+    settings.set_text("wright", "floor", "auto").expect("a legal value");
     goes_over("cuts", 1, |stop| segments(&series, &settings, stop).map(|_| ()));
     // The largest value, and the smallest movement.
     goes_over("floor", 2, |stop| noise::auto_floor(&series, all, stop).map(|_| ()));

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::record::{Record, Wild};
 use crate::error::{Error, Result};
+use crate::method::shared::FLOOR;
 use crate::review::Decisions;
 use crate::score::{FinalError, final_error};
 use crate::session::{Outcome, Preset, Setup, detect, method_of_id, settle};
@@ -52,6 +53,8 @@ pub type Keys = &'static [(&'static str, &'static str)];
 /// [`Error::Usage`] for a method, key or value that does not fit.
 pub fn setup(method: &str, preset: Preset, keys: &[(&str, &str)]) -> Result<Setup> {
     let mut setup = Setup::new(method_of_id(method)?, preset);
+    // The documents know no calibration: what is compared with them is the method as they describe it.
+    setup.set_text(FLOOR.key, "auto")?;
     keys.iter().try_for_each(|(key, value)| setup.set_text(key, value))?;
     Ok(setup)
 }

@@ -33,12 +33,13 @@ pub(super) fn bounded_below(
             continue;
         }
         *tolerance = tolerance.max(k * segment.floors[i]);
-        if !matches!(verdict, Verdict::Outlier | Verdict::Suspect) {
+        // What only one direction objects to is suspect already: its expected value is that of the other one.
+        if *verdict != Verdict::Outlier {
             continue;
         }
         if !reaches((y - expected).abs(), *tolerance) {
             *verdict = Verdict::Normal;
-        } else if *verdict == Verdict::Outlier && segment.objections[i] < OUTSIDE * *tolerance {
+        } else if segment.objections[i] < OUTSIDE * *tolerance {
             *verdict = Verdict::Suspect;
         }
     }

@@ -171,6 +171,7 @@ mod tests {
         let mut setup = Setup::new(method_of_id("wright").unwrap(), Preset::Default);
         setup.set_text("k", "1.5").unwrap();
         setup.set_text("max_passes", "1").unwrap();
+        setup.set_text("floor", "auto").unwrap();
         let detection = Detection::of(Input::new(&series, None), &setup, &Stop::never()).unwrap();
         let rows = Rows { seconds: &t, own: None };
         let outcome = settle(&series, rows, Arc::new(detection), &Decisions::default(), &Stop::never()).unwrap();

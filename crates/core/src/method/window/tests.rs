@@ -138,6 +138,8 @@ fn gating_again_is_judging_again_across_cuts_and_short_segments() {
     let series = Series::new(&t, &y);
     for method in [&Hampel as &dyn Method, &Template] {
         let mut settings = Settings::defaults(method.about().params);
+        // With a floor for each sample the multiplier does more than gate.
+        settings.set_text("it", shared::FLOOR.key, "auto").unwrap();
         if has_feedback(&settings) {
             settings.set("it", shared::FEEDBACK.key, Value::Switch(false)).unwrap();
         }
