@@ -20,7 +20,8 @@ fn rows(bench: &Bench) -> Vec<String> {
 
 #[test]
 fn a_flag_that_a_knob_takes_away_keeps_its_row_until_the_cursor_moves_on() {
-    let bench = Bench::on("demo.csv", UNICODE_DARK).size((120, 40)).keys(":set Space floor Space auto Enter").keys("np");
+    let bench =
+        Bench::on("demo.csv", UNICODE_DARK).size((120, 40)).keys(":set Space floor Space auto Enter").keys("np");
     let before = rows(&bench);
     assert_eq!(before[..5], ["61 ●", "91 ●", "200 ●", "222 ●", "239 ●"]);
     assert_eq!(before[5], "323 ●", "276 is a suspect from k = 3.9 down: {before:?}");

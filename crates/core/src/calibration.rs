@@ -5,11 +5,11 @@
 //! at the residuals of the record about its own neighbours instead, and finds for each sample the limit at which a
 //! residual stops being noise:
 //!
-//! 1. [`coast`]: a coarse test from both sides masks what both object to, so that wild points do not count as noise.
-//! 2. [`residual`]: the distance of each sample from the median of the interpolations between its neighbours on both
+//! 1. `coast`: a coarse test from both sides masks what both object to, so that wild points do not count as noise.
+//! 2. `residual`: the distance of each sample from the median of the interpolations between its neighbours on both
 //!    sides, in two windows, with what is left of curvature taken off.
-//! 3. [`background`]: the 95 % quantile of the residuals of the neighbourhood, which follows noise that changes.
-//! 4. [`threshold`]: the multiple of it at which the residuals of this record end and wild points begin.
+//! 3. `background`: the 95 % quantile of the residuals of the neighbourhood, which follows noise that changes.
+//! 4. `threshold`: the multiple of it at which the residuals of this record end and wild points begin.
 //!
 //! Steps 2 to 4 run three times, each time without the samples found so far.
 //!

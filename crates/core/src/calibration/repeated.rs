@@ -65,7 +65,8 @@ pub fn repeated(y: &[f64]) -> Vec<Repeated> {
     found
 }
 
-/// A value that is written where there is none: three nines or more and nothing else (-9999, 99.99), or one of [`USUAL`].
+/// A value that is written where there is none: three nines or more and nothing else (-9999, 99.99), or one of a short
+/// list of others.
 #[must_use]
 pub fn is_usual(value: f64) -> bool {
     if USUAL.iter().any(|usual| usual.to_bits() == value.to_bits()) {

@@ -337,7 +337,7 @@ impl Analysed {
     /// Runs every plan of `session`.
     ///
     /// # Errors
-    /// What [`detect`] and [`settle`] give; [`Error::Usage`] for a channel that the record does not have.
+    /// What [`detect_taught`] and [`settle`] give; [`Error::Usage`] for a channel that the record does not have.
     pub fn of(session: &Session, track: &Track, stop: &Stop) -> Result<Self> {
         use rayon::prelude::*;
         let prepare = |plan: &Plan| {
