@@ -141,7 +141,7 @@ pub fn sweep(
     let rest = setups[1..].par_iter().map(|(value, one)| {
         let detection = match base.regated(input, one, stop)? {
             Some(detection) => detection,
-            None => Detection::of(input, one, stop)?,
+            None => Detection::calibrated(input, one, Some(&base), stop)?,
         };
         Ok(count(*value, &detection, series, truth, stop)?)
     });
