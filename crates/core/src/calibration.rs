@@ -8,7 +8,7 @@
 //! 1. `coast`: a coarse test from both sides masks what both object to, so that wild points do not count as noise.
 //! 2. `residual`: the distance of each sample from the median of the interpolations between its neighbours on both
 //!    sides, in two windows, with what is left of curvature taken off.
-//! 3. `background`: the 95 % quantile of the residuals of the neighbourhood, which follows noise that changes.
+//! 3. `background`: the 95 % quantile of the residuals of the neighbourhood: the limit rises where the noise does.
 //! 4. `threshold`: the multiple of it at which the residuals of this record end and wild points begin.
 //!
 //! Steps 2 to 4 run three times, each time without the samples found so far.
@@ -17,6 +17,8 @@
 
 use rayon::prelude::*;
 
+use crate::math::difference::third;
+use crate::math::order::{MAD_TO_SIGMA, median_in_place};
 use crate::series::Series;
 use crate::stop::{Stop, Stopped};
 
@@ -80,8 +82,7 @@ impl Calibration {
     #[must_use]
     pub fn typical_limit(&self) -> Option<f64> {
         let mut finite: Vec<f64> = self.limits.iter().copied().filter(|l| l.is_finite()).collect();
-        let middle = finite.len() / 2;
-        (!finite.is_empty()).then(|| *finite.select_nth_unstable_by(middle, f64::total_cmp).1)
+        (!finite.is_empty()).then(|| median_in_place(&mut finite))
     }
 }
 
@@ -184,16 +185,15 @@ fn white_noise(record: &Record<'_>, masked: &[bool]) -> f64 {
     #[expect(clippy::float_cmp, reason = "held values repeat to the bit")]
     let fresh = |i: &usize| !masked[*i] && (!record.holds || *i == 0 || record.y[*i] != record.y[*i - 1]);
     let own: Vec<usize> = (0..record.y.len()).filter(fresh).collect();
-    let y = |i: usize| record.y[i];
-    let third = |w: &[usize]| (y(w[0]) - 3.0 * y(w[1]) + 3.0 * y(w[2]) - y(w[3])).abs() / 20_f64.sqrt();
+    let four = |values: &[f64], w: &[usize]| std::array::from_fn(|k| values[w[k]]);
+    let third = |w: &[usize]| third(four(record.t, w), four(record.y, w)).abs() / 20_f64.sqrt();
     // Neighbours in the record, so that no wild point and no gap lies between.
     let near = |w: &&[usize]| record.holds || w[3] == w[0] + 3;
     let mut all: Vec<f64> = own.windows(4).filter(near).map(third).collect();
     if all.len() < 8 {
         return 0.0;
     }
-    let middle = all.len() / 2;
-    1.4826 * *all.select_nth_unstable_by(middle, f64::total_cmp).1
+    MAD_TO_SIGMA * median_in_place(&mut all)
 }
 
 /// Quantile `q` of the unmasked residuals; 0 without any.
@@ -215,4 +215,50 @@ fn quantile(values: &mut [f64], q: f64) -> f64 {
     )]
     let at = (q * (values.len() - 1) as f64) as usize;
     *values.select_nth_unstable_by(at, f64::total_cmp).1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Noise of deviation close to 1 from a fixed walk: no generator is needed to make it.
+    fn noise(i: usize) -> f64 {
+        let uniform = |k: usize| ((i * 7919 % 104_729) as f64 * 0.618_033_988_749_895 * (k * k + 1) as f64).fract();
+        (1..=12).map(uniform).sum::<f64>() - 6.0
+    }
+
+    fn limits(t: &[f64], y: &[f64]) -> Vec<f64> {
+        calibrate(&Series::new(t, y), &Stop::never()).unwrap().limits
+    }
+
+    #[test]
+    fn limits_rise_where_the_noise_does() {
+        let t: Vec<f64> = (0..4000).map(f64::from).collect();
+        let rough = 2000..2300;
+        let y: Vec<f64> = (0..4000).map(|i| noise(i) * if rough.contains(&i) { 10.0 } else { 0.1 }).collect();
+        let limits = limits(&t, &y);
+        // Between three and ten deviations, away from the changes.
+        assert!(limits[200..1800].iter().all(|l| (0.3..1.0).contains(l)), "{:?}", &limits[200..210]);
+        assert!(limits[2110..2190].iter().all(|l| (30.0..100.0).contains(l)), "{:?}", &limits[2110..2120]);
+    }
+
+    #[test]
+    fn one_fill_value_changes_no_limit_far_from_it() {
+        let t: Vec<f64> = (0..2000).map(f64::from).collect();
+        let mut y: Vec<f64> = (0..2000).map(noise).collect();
+        let before = limits(&t, &y);
+        y[1000] = 1e20;
+        let after = limits(&t, &y);
+        assert!((0..700).chain(1300..2000).all(|i| (after[i] / before[i] - 1.0).abs() < 0.1));
+    }
+
+    #[test]
+    fn a_side_without_neighbours_weighs_a_tenth() {
+        let t: Vec<f64> = (0..200).map(f64::from).collect();
+        let mut y: Vec<f64> = (0..200).map(noise).collect();
+        (y[100], y[199]) = (1000.0, 1000.0);
+        let found = calibrate(&Series::new(&t, &y), &Stop::never()).unwrap();
+        assert!(found.objections[100] > 990.0 && (90.0..101.0).contains(&found.objections[199]));
+        assert!(found.objections[50] < 5.0);
+    }
 }

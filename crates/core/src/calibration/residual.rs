@@ -3,6 +3,9 @@
 use rayon::prelude::*;
 
 use super::Record;
+use crate::math::line::LineSums;
+use crate::math::order::median_in_place;
+use crate::math::sliding::Summary;
 use crate::stop::{Stop, Stopped};
 
 /// Samples in one piece of parallel work.
@@ -18,14 +21,14 @@ pub(super) fn residuals(record: &Record<'_>, masked: &[bool], half: usize, stop:
         let masked = &masked[stretch.clone()];
         let once = each(y.len(), stop, |i, near| {
             interpolations(t, y, masked, (i, half), near);
-            if near.is_empty() { 0.0 } else { y[i] - upper_median(near) }
+            if near.is_empty() { 0.0 } else { y[i] - median_in_place(near) }
         })?;
         let twice = each(y.len(), stop, |i, near| {
             let reach = i.min(y.len() - 1 - i).min(half).max(2);
             let around = i.saturating_sub(reach)..y.len().min(i + reach + 1);
             near.clear();
             near.extend(around.filter(|j| *j != i && !masked[*j]).map(|j| once[j]));
-            (once[i] - if near.len() < 3 { 0.0 } else { median(near) }).abs()
+            (once[i] - if near.len() < 3 { 0.0 } else { median_in_place(near) }).abs()
         })?;
         all[stretch.clone()].copy_from_slice(&twice);
     }
@@ -66,20 +69,6 @@ fn interpolations(t: &[f64], y: &[f64], masked: &[bool], (i, half): (usize, usiz
         let middle = own.len() / 2;
         found.extend((0..middle).map(|k| between(own[k], own[k + middle])));
     }
-}
-
-fn upper_median(values: &mut [f64]) -> f64 {
-    let middle = values.len() / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
-}
-
-fn median(values: &mut [f64]) -> f64 {
-    let middle = values.len() / 2;
-    let upper = *values.select_nth_unstable_by(middle, f64::total_cmp).1;
-    if !values.len().is_multiple_of(2) {
-        return upper;
-    }
-    f64::midpoint(values[..middle].iter().copied().fold(f64::NEG_INFINITY, f64::max), upper)
 }
 
 /// Points of the lines by which a side expects a sample.
@@ -131,17 +120,9 @@ fn outside_of(record: &Record<'_>, own: &[usize], i: usize) -> f64 {
     if left.len() < SIDE || right.len() < SIDE { distance / GROSS } else { distance }
 }
 
-/// The least-squares line through these samples, at time `at`.
-#[expect(clippy::cast_precision_loss, reason = "a handful of points")]
+/// The value at time `at` of the least-squares line through these samples.
 pub(super) fn line_at(record: &Record<'_>, points: &[usize], at: f64) -> f64 {
-    let n = points.len() as f64;
-    let mean = |x: &[f64]| points.iter().map(|&j| x[j]).sum::<f64>() / n;
-    let (t, y) = (mean(record.t), mean(record.y));
-    let (mut squares, mut products) = (0.0, 0.0);
-    for &j in points {
-        let dt = record.t[j] - t;
-        squares += dt * dt;
-        products += dt * (record.y[j] - y);
-    }
-    if squares > 0.0 { y + products / squares * (at - t) } else { y }
+    let mut line = LineSums::default();
+    points.iter().for_each(|&j| line.add([record.t[j], record.y[j]]));
+    line.at(at)
 }
