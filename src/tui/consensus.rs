@@ -10,7 +10,7 @@ use super::plot::{Pyramid, VotesPlot};
 use crate::error::{Error, Result, on_one_line};
 use crate::job::Worker;
 use crate::method::METHODS;
-use crate::session::{Ballot, Preparation, Preset, Setup, candidates, detect};
+use crate::session::{Ballot, Detection, Preparation, Preset, Setup, candidates, detect};
 use crate::stop::Stop;
 use crate::track::{Samples, Track};
 
@@ -110,12 +110,17 @@ impl Poll {
         let (setups, without_rate) = candidates(METHODS, self.question.preset, self.question.rate.as_deref());
         let mut left_out: Vec<_> = without_rate.into_iter().map(|id| (id, "needs a rate channel".to_owned())).collect();
         let mut ballot = Ballot::new(samples);
+        // The channel is calibrated for the first of them.
+        let mut first: Option<Detection> = None;
         for (done, setup) in setups.iter().enumerate() {
             progress(done);
             let id = setup.method.about().id;
             let setup = setup.clone().prepared(&self.question.preparation);
-            match detect(&self.track, channel, &self.samples, &setup, None, stop) {
-                Ok(detection) => ballot.add(id, detection.judged.verdict(), stop)?,
+            match detect(&self.track, channel, &self.samples, &setup, first.as_ref(), stop) {
+                Ok(detection) => {
+                    ballot.add(id, detection.judged.verdict(), stop)?;
+                    first.get_or_insert(detection);
+                }
                 Err(Error::Stopped) => return Err(Error::Stopped),
                 Err(e) => left_out.push((id, on_one_line(&e))),
             }

@@ -6,13 +6,13 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::shared::{C, FLOOR, K, RECORD};
+use super::shared::{FLOOR, RECORD, multiplier};
 use super::{exceeds, zero_scale_of_many};
 use crate::calibration::{Calibration, calibrate};
 use crate::math::movement::smallest_movement;
-use crate::math::order::{MAD_TO_SIGMA, Middle, median_of_many, median_of_smallest};
+use crate::math::order::{MAD_TO_SIGMA, Middle, median, median_of_many, median_of_smallest};
 use crate::math::{difference, pieces, smoothing};
-use crate::param::{Choice, Kind, Settings, Value};
+use crate::param::{Choice, Kind, Settings};
 use crate::series::Series;
 use crate::stop::{Stop, Stopped};
 
@@ -74,7 +74,7 @@ pub fn scales_by(
     let floors = match (choice(settings, "floor"), &own) {
         (None, _) => vec![0.0; segments.len()],
         (Some(Choice::Number(x)), _) => vec![x; segments.len()],
-        (Some(Choice::Word(_)), Some(own)) => segments.iter().map(|s| middle(&own[s.clone()])).collect(),
+        (Some(Choice::Word(_)), Some(own)) => segments.iter().map(|s| median(&own[s.clone()])).collect(),
         (Some(Choice::Word(_)), None) => auto_floor(series, segments, stop)?,
     };
     let sigmas = match choice(settings, "sigma") {
@@ -102,18 +102,8 @@ pub fn scales_by(
 /// The floor of each sample: the limit of the calibration over the default of the multiplier, so that the multiplier
 /// still turns it. 0 where nothing is known.
 fn record_floors(calibration: &Calibration, settings: &Settings) -> Arc<[f64]> {
-    let usual = settings.params().iter().find(|p| p.key == K.key || p.key == C.key).map(|p| p.default);
-    let usual = if let Some(Value::Real(k)) = usual { k } else { WITHOUT_MULTIPLIER };
+    let usual = multiplier(&Settings::defaults(settings.params()));
     calibration.limits.iter().map(|limit| if limit.is_finite() { limit / usual } else { 0.0 }).collect()
-}
-
-/// What stands for the multiplier of criteria that have none.
-const WITHOUT_MULTIPLIER: f64 = 4.0;
-
-fn middle(floors: &[f64]) -> f64 {
-    let mut floors = floors.to_vec();
-    let at = floors.len() / 2;
-    if floors.is_empty() { 0.0 } else { *floors.select_nth_unstable_by(at, f64::total_cmp).1 }
 }
 
 /// False when the method measures a scale of its own and knows none of the words that ask for one of these.

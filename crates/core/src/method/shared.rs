@@ -230,6 +230,18 @@ pub const C: Param = Param {
     matters: always,
 };
 
+/// What stands for the multiplier of criteria that have none, where a floor or a limit is one scale times it.
+const NO_MULTIPLIER: f64 = 4.0;
+
+/// The multiplier of these settings, [`K`] or [`C`]; 4 for criteria that have none.
+#[must_use]
+pub fn multiplier(settings: &Settings) -> f64 {
+    match settings.get(K.key).or_else(|| settings.get(C.key)) {
+        Some(Value::Real(k)) => k,
+        _ => NO_MULTIPLIER,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use crate::method::find;

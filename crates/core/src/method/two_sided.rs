@@ -155,8 +155,9 @@ impl Method for TwoSided {
         if delta <= 0.0 {
             return Judged::unchecked_many(segment.len(), stop);
         }
-        // Where each sample has a floor of its own, that alone is the scale.
-        let delta = |i: usize| local.get(i).map_or(delta, |floor| k * floor);
+        // Where each sample has a floor of its own, that is the scale, unless a larger one was asked for.
+        let asked = if settings.choice(shared::SIGMA.key) == Choice::Word("auto") { 0.0 } else { segment.sigma };
+        let delta = |i: usize| local.get(i).map_or(delta, |floor| k * floor.max(asked));
         let max_run = settings.whole(shared::MAX_RUN.key);
         let one = |way| {
             let model = Candidates::new(settings, segment.sigma, segment.interval);
@@ -269,4 +270,25 @@ fn verdict(forward: Option<Direction>, backward: Option<Direction>) -> Verdict {
 /// Of two predictions the one nearer to `y`; within `tie` the first; the other where one is NaN.
 fn nearer(y: f64, forward: f64, backward: f64, tie: f64) -> f64 {
     if forward.is_nan() || (backward - y).abs() < (forward - y).abs() - tie { backward } else { forward }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::method::judge_channel;
+    use crate::series::Series;
+
+    /// A floor bounds a scale from below; it does not replace one that was given.
+    #[test]
+    fn a_larger_sigma_that_was_given_holds_beside_the_floors_of_the_samples() {
+        let t: Vec<f64> = (0..300).map(f64::from).collect();
+        let y: Vec<f64> = (0..300).map(|i| f64::from(i * 37 % 11) + if i == 150 { 500.0 } else { 0.0 }).collect();
+        let flagged = |sigma: &str| {
+            let mut settings = Settings::defaults(PARAMS);
+            settings.set_text("two-sided", "sigma", sigma).unwrap();
+            let judged = judge_channel(&TwoSided, &Series::new(&t, &y), None, &settings, &Stop::never()).unwrap();
+            judged.verdict[150] == Verdict::Outlier
+        };
+        assert!(flagged("auto") && flagged("1") && !flagged("1000"));
+    }
 }
