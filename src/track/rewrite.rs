@@ -207,6 +207,9 @@ impl<'a> Editor<'a> {
         let time = &self.track.time;
         let width = spans.len().max(new.cells.last().map_or(0, |(c, _)| c + 1));
         let text = |column: usize| {
+            if let Some(place) = time.part_columns.iter().position(|c| *c == column) {
+                return time.write_part(new.seconds, place, &self.cell(record, spans, column));
+            }
             if time.column == Some(column) {
                 return time.write_like(new.seconds, &self.time_sample);
             }

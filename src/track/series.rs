@@ -93,8 +93,8 @@ impl Channel {
     /// Times of the first and the last present sample, in seconds; none when there is none.
     #[must_use]
     pub fn ends(&self, time: &TimeAxis) -> Option<(f64, f64)> {
-        if let Some(target) = &self.target {
-            let series = Series::of_rows(&target.rows, &time.seconds, &self.values);
+        if self.target.is_some() || time.newest_first {
+            let series = Series::of(self, time);
             return series.t.first().copied().zip(series.t.last().copied());
         }
         let present = |(t, y): (&f64, &f64)| (t.is_finite() && y.is_finite()).then_some(*t);
@@ -109,7 +109,16 @@ impl<'a> Series<'a> {
     #[must_use]
     pub fn of(channel: &'a Channel, time: &'a TimeAxis) -> Self {
         match &channel.target {
+            None if time.newest_first => {
+                let n = time.seconds.len().min(channel.values.len());
+                #[expect(clippy::cast_possible_truncation, reason = "the loader refuses files of 2^32 rows and more")]
+                Self::of_pairs((0..n).rev().map(|row| (row as u32, channel.values[row])), &time.seconds)
+            }
             None => Self::new(&time.seconds, &channel.values),
+            Some(target) if time.newest_first => {
+                let pairs = target.rows.iter().copied().zip(channel.values.iter().copied()).rev();
+                Self::of_pairs(pairs, &time.seconds)
+            }
             Some(target) => Self::of_rows(&target.rows, &time.seconds, &channel.values),
         }
     }
@@ -117,8 +126,13 @@ impl<'a> Series<'a> {
     /// The samples of `rows` (ascending) at which time and value are finite; `seconds` has a time for every row of
     /// the file, `values` one for each of `rows`.
     fn of_rows(rows: &[u32], seconds: &[f64], values: &[f64]) -> Self {
+        Self::of_pairs(rows.iter().copied().zip(values.iter().copied()), seconds)
+    }
+
+    /// The same of rows with their values, in the order of their times.
+    fn of_pairs(pairs: impl Iterator<Item = (u32, f64)>, seconds: &[f64]) -> Self {
         let (mut kept, mut t, mut y) = (Vec::new(), Vec::new(), Vec::new());
-        for (&row, &value) in rows.iter().zip(values) {
+        for (row, value) in pairs {
             let time = seconds.get(row as usize).copied().unwrap_or(f64::NAN);
             if time.is_finite() && value.is_finite() {
                 kept.push(row);
@@ -176,7 +190,13 @@ impl<'a> Series<'a> {
     pub fn position(&self, row: usize) -> Option<usize> {
         match &self.rows {
             None => (row < self.len()).then_some(row),
-            Some(rows) => u32::try_from(row).ok().and_then(|row| rows.binary_search(&row).ok()),
+            Some(rows) => {
+                let row = u32::try_from(row).ok()?;
+                // The newest row may stand first.
+                let newest_first = rows.first() > rows.last();
+                let order = |r: &u32| if newest_first { row.cmp(r) } else { r.cmp(&row) };
+                rows.binary_search_by(order).ok()
+            }
         }
     }
 
@@ -284,6 +304,9 @@ mod tests {
             name: String::new(),
             column: None,
             date_column: None,
+            part_columns: Vec::new(),
+            zone: None,
+            newest_first: false,
             format: super::super::TimeFormat::SampleNumber,
             origin_ns: 0,
             seconds: vec![f64::NAN, 1.0, 2.0, 4.0],

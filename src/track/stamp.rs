@@ -53,7 +53,7 @@ fn decimal(text: &[u8], unit_ns: i64, point: u8) -> Option<i64> {
 }
 
 #[inline]
-fn integer(digits: &[u8]) -> Option<i64> {
+pub(super) fn integer(digits: &[u8]) -> Option<i64> {
     if digits.is_empty() || digits.len() > 19 {
         return None;
     }
@@ -140,7 +140,7 @@ pub(crate) fn clock(text: &[u8]) -> Option<i64> {
 }
 
 /// Decimals of a second; those after the ninth are cut off.
-fn fraction_ns(digits: &[u8]) -> Option<i64> {
+pub(super) fn fraction_ns(digits: &[u8]) -> Option<i64> {
     if !digits.iter().all(u8::is_ascii_digit) {
         return None;
     }

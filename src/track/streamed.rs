@@ -80,7 +80,7 @@ fn understood(path: &Path, check: Check, options: &LoadOptions) -> Result<(Under
         check.of(lines).map_err(Failure::Unfit)?;
         let text = Text::part(lines, encoding, gzip);
         let understood = Understood::of(&text, options, path).map_err(|_| UNFIT)?;
-        if understood.head.needs_no_more(text.body()) {
+        if understood.head.data_end.is_none() && understood.head.needs_no_more(text.body()) {
             let before = understood.head.data_start;
             return Ok((understood, [lines.len() - text.body().len(), before]));
         }
