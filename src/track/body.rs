@@ -26,6 +26,8 @@ pub(crate) struct Plan<'a> {
     pub(crate) oddities: &'a [Vec<Oddity>],
     /// For each column, whether TRUE and FALSE are 1 and 0.
     pub(crate) truths: Vec<bool>,
+    /// For each column, texts that stand where its numbers have not begun.
+    pub(crate) late: &'a [Vec<String>],
     /// Whether texts below the last row are no rows.
     pub(crate) footer: bool,
 }
@@ -38,6 +40,8 @@ pub(crate) struct Numbers {
     pub(crate) present: usize,
     pub(crate) unreadable: Fault,
     pub(crate) infinite: Fault,
+    /// Cells with a text where the numbers have not begun.
+    pub(crate) late: usize,
     /// Numbers in cells that hold more, by oddity.
     pub(crate) odd: [usize; Oddity::ALL.len()],
 }
@@ -106,6 +110,13 @@ impl Plan<'_> {
         let allowed = self.oddities.get(column).filter(|o| !o.is_empty())?;
         let odd = super::odd::odd(cell, self.reading.decimal_comma).filter(|odd| allowed.contains(&odd.oddity))?;
         (!self.reading.is_missing(odd.value)).then_some((odd.value, Some(odd.oddity)))
+    }
+}
+
+impl Plan<'_> {
+    /// True for a text that stands where the numbers of the column have not begun.
+    pub(crate) fn is_late(&self, column: usize, cell: &[u8]) -> bool {
+        self.late.get(column).is_some_and(|texts| texts.iter().any(|t| t.as_bytes() == cell))
     }
 }
 
@@ -216,6 +227,7 @@ impl Whole {
         for (whole, part) in body.numbers.iter_mut().zip(&part.numbers) {
             whole.values.extend_from_slice(&part.values);
             whole.present += part.present;
+            whole.late += part.late;
             add_fault(&mut whole.unreadable, &part.unreadable, self.lines);
             add_fault(&mut whole.infinite, &part.infinite, self.lines);
             whole.odd.iter_mut().zip(part.odd).for_each(|(whole, part)| *whole += part);
@@ -260,6 +272,7 @@ mod tests {
             repeats: &[],
             oddities: &[],
             truths: Vec::new(),
+            late: &[],
             footer: true,
         }
     }

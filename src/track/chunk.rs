@@ -113,6 +113,7 @@ impl<'a> Chunk<'a> {
         for (column, _) in self.plan.slots.iter().enumerate().filter(|(_, slot)| slot.is_some()) {
             match self.plan.reading.cell(cell(column)) {
                 Cell::Number(_) | Cell::Infinite => return false,
+                Cell::Text if self.plan.is_late(column, cell(column)) => {}
                 Cell::Text if self.plan.other_number(column, cell(column)).is_some() => return false,
                 Cell::Text => text = true,
                 Cell::Missing => {}
@@ -136,7 +137,7 @@ impl<'a> Chunk<'a> {
             let cell = spans.get(column).map_or(&[][..], |s| &s.of(record)[inner(s.of(record), quote)]);
             let marker = plan.reading.is_marker(cell);
             tail.missing[column] += usize::from(slot.is_some() || marker);
-            if let (Some(slot), Cell::Text) = (slot, plan.reading.cell(cell)) {
+            if let (Some(slot), Cell::Text, false) = (slot, plan.reading.cell(cell), plan.is_late(column, cell)) {
                 tail.unreadable[*slot].add(line, &decoded(cell, plan.encoding));
             }
         }
@@ -187,6 +188,7 @@ impl<'a> Chunk<'a> {
                     self.body.missing[column] += 1;
                     match other {
                         Cell::Infinite => numbers.infinite.add(line, &decoded(cell, self.plan.encoding)),
+                        Cell::Text if self.plan.is_late(column, cell) => numbers.late += 1,
                         Cell::Text => match self.plan.other_number(column, cell) {
                             Some((value, oddity)) => {
                                 self.body.missing[column] -= 1;

@@ -401,9 +401,9 @@ mod tests {
     #[test]
     fn header_units_and_titles_are_told_apart() {
         let h = head("time,alt\n0,1\n1,2\n");
-        assert_eq!((h.header, h.units_row, h.preamble, h.data_line), (true, false, 1, 2));
+        assert_eq!((h.header, h.units_at.is_some(), h.preamble, h.data_line), (true, false, 1, 2));
         let h = head("time,alt,state\ns,ft,\n0,1,a\n1,2,b\n");
-        assert_eq!((h.header, h.units_row, h.preamble), (true, true, 2));
+        assert_eq!((h.header, h.units_at.is_some(), h.preamble), (true, true, 2));
         assert_eq!(h.units, ["s", "ft", ""]);
         let h = head("SpCond,,\nstart,end,gap\n2014-01-24 13:15,2014-02-26 13:30,-20.00\n");
         assert_eq!((h.names.join(" "), h.header_line, h.preamble), ("start end gap".into(), 2, 2));

@@ -11,7 +11,7 @@ use super::order::{Moments, Ordered, Rows, order, sample_numbers};
 use super::roles::{Roles, assign, release};
 use super::shape::{refuse_long_form, refuse_other_formats};
 use super::streamed::streamed;
-use super::targets::Targets;
+use super::targets::{self, Targets};
 use super::text::{Text, path_of, sha256, stored};
 use super::timing::{Timing, choose};
 use super::tokens::inner;
@@ -134,6 +134,7 @@ impl Understood {
             repeats: &self.head.repeats,
             oddities: &self.head.oddities,
             truths: self.roles.truths.clone(),
+            late: &self.roles.late,
             footer: self.rules == Rules::Second,
         };
         let (mut feed, bytes) = rows().map_err(Failure::Unfit)?;
@@ -186,7 +187,12 @@ impl Understood {
         if self.rules == Rules::Second {
             lost(&track, path)?;
         }
-        let targets = match roles.track {
+        let track_column = match roles.track {
+            Some(told) => Some(told),
+            None if self.rules == Rules::Second => targets::recognised(&mut track, moments.as_ref(), again, head)?,
+            None => None,
+        };
+        let targets = match track_column {
             Some(column) => Some(Targets::divide(&mut track, column, again, (head, options))?),
             None => None,
         };
@@ -209,6 +215,11 @@ impl Understood {
         said.extend(self.timing.iter().flat_map(|t| t.said.iter().cloned()));
         for (column, slot) in self.roles.slots.iter().enumerate() {
             let Some(numbers) = slot.map(|slot| &body.numbers[slot]) else { continue };
+            if numbers.late > 0 && numbers.present > 0 {
+                let texts: Vec<String> = self.roles.late[column].iter().map(|t| printable(t)).collect();
+                let name = printable(&self.head.names[column]);
+                said.push(format!("`{name}`: {} cells hold {}, taken as missing", numbers.late, texts.join(" or ")));
+            }
             for oddity in Oddity::ALL {
                 let count = numbers.odd[oddity as usize];
                 if count > 0 {

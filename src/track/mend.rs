@@ -128,7 +128,7 @@ fn drop_wild(moments: &mut [i64], rows: &[usize], wild: &mut Vec<usize>) {
             let begin = moments[kept[kept.len() - run]];
             let far = before.is_none_or(|b| begin.saturating_sub(b) > FAR.saturating_mul(step))
                 && begin.saturating_sub(now) > FAR.saturating_mul(step);
-            let close = before.is_none_or(|b| now >= b && now.saturating_sub(b) <= FAR.saturating_mul(step));
+            let close = before.is_some_and(|b| now >= b && now.saturating_sub(b) <= FAR.saturating_mul(step));
             let follow = following(moments, &rows[place..], begin, run + 3);
             if before.is_some_and(|b| now < b) || follow < run || !(far && (follow > run || close) || follow >= run + 3)
             {

@@ -110,7 +110,10 @@ pub(crate) fn unit_of(name: &str) -> String {
     if let Some(unit) = bracketed('(', ')') {
         return known_unit(unit).or(unit.contains('/').then_some(unit)).unwrap_or_default().to_owned();
     }
-    // A name that is nothing but a unit (`v`, `h`) is a quantity.
+    // A name that is nothing but a unit (`v`, `hPa`) is a quantity.
+    if known_unit(name).is_some() {
+        return String::new();
+    }
     let end = name.rsplit_once(['_', ' ']).map(|(_, end)| end);
     if let Some(end) = end.filter(|e| e.contains('/')) {
         return end.to_owned();
@@ -216,10 +219,36 @@ const DATES: [&str; 18] = [
     "yymmdd",
 ];
 
+/// Words in the names of years with decimals.
+const YEARS: [&str; 8] = ["year", "yyyy", "decimal", "dec", "fractional", "frac", "years", "fraction"];
+
 /// Names that are times where nothing else stands in them, and their values go forward.
-const SHORT_TIMES: [&str; 17] = [
-    "t", "ts", "tow", "sec", "secs", "seconds", "elapsed", "stamp", "hours", "days", "day", "millis", "itow", "sow",
-    "met", "hhmmss", "year",
+const SHORT_TIMES: [&str; 25] = [
+    "ms",
+    "msec",
+    "milliseconds",
+    "microseconds",
+    "nanoseconds",
+    "us",
+    "usec",
+    "micros",
+    "t",
+    "ts",
+    "tow",
+    "sec",
+    "secs",
+    "seconds",
+    "elapsed",
+    "stamp",
+    "hours",
+    "days",
+    "day",
+    "millis",
+    "itow",
+    "sow",
+    "met",
+    "hhmmss",
+    "year",
 ];
 
 /// Words in the names of columns that tell tracks apart.
@@ -296,7 +325,15 @@ pub(crate) fn time_rank(name: &str) -> u8 {
         4
     } else if is_time(last) || is_date(first) || is_date(last) {
         3
-    } else if words.iter().any(|w| is_time(w)) || (without_unit.len() == 1 && SHORT_TIMES.contains(&first.as_str())) {
+    } else if words.len() > 1
+        && words.iter().any(|w| matches!(w.as_str(), "year" | "yyyy"))
+        && words.iter().all(|w| YEARS.contains(&w.as_str()))
+    {
+        3
+    } else if name.eq_ignore_ascii_case("x_value")
+        || words.iter().any(|w| is_time(w))
+        || (without_unit.len() == 1 && SHORT_TIMES.contains(&first.as_str()))
+    {
         2
     } else {
         0

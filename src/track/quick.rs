@@ -286,6 +286,7 @@ mod tests {
                 repeats: &[],
                 oddities: &[],
                 truths: Vec::new(),
+            late: &[],
                 footer: true,
             };
             let quote = quoted.then_some(b'"');

@@ -4,12 +4,12 @@ use super::body::{Numbers, truth};
 use super::head::Head;
 use super::sniff::{Look, look};
 use super::timing::Timing;
-use super::{ColumnKind, LoadOptions, Rules, names, printable, targets};
+use super::{Aside, ColumnKind, LoadOptions, Rules, names, printable, targets};
 use crate::error::{Error, Result};
 
 mod aside;
 
-pub(crate) use aside::release;
+pub(crate) use aside::{is_id_column, release};
 
 /// Which columns are parsed as numbers, and why.
 #[derive(Debug)]
@@ -26,6 +26,8 @@ pub(crate) struct Roles {
     pub(crate) unread: Vec<ColumnKind>,
     /// For each column, whether its cells are TRUE and FALSE.
     pub(crate) truths: Vec<bool>,
+    /// For each column, texts that stand where its numbers have not begun.
+    pub(crate) late: Vec<Vec<String>>,
     /// By which rules.
     rules: Rules,
     /// Rows of the sample.
@@ -59,11 +61,15 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
         ));
     }
     let kind = |c: usize| match kind_by_sample(head, c) {
+        ColumnKind::Text if options.rules == Rules::Second && holds_truths(head, c, false) => {
+            ColumnKind::Aside(Aside::Flag)
+        }
         ColumnKind::Number if options.rules == Rules::Second && !is_time(c) => {
             aside::by_sample(head, c, timing).map_or(ColumnKind::Number, ColumnKind::Aside)
         }
         kind => kind,
     };
+    let late = late_markers(head, options, &is_time);
     let mut unread: Vec<ColumnKind> = (0..head.names.len()).map(kind).collect();
     if options.rules == Rules::Second {
         aside::keep_one_channel(&mut unread, &is_time);
@@ -76,6 +82,7 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
             true
         } else if channels.is_empty() {
             matches!(unread[c], ColumnKind::Number | ColumnKind::Empty)
+                || !late[c].is_empty()
                 || (truths[c] && names::is_truth(&head.names[c]))
         } else {
             channels.contains(&c) || (names::is_truth(&head.names[c]) && (truths[c] || unread[c] == ColumnKind::Number))
@@ -94,6 +101,7 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
         truth,
         track,
         truths,
+        late,
         rules: options.rules,
         rows: head.sample.len(),
         unread,
@@ -106,7 +114,11 @@ impl Roles {
         let told = self.channels.as_ref().is_some_and(|c| c.contains(&index));
         let all_bits = || numbers.values.iter().all(|v| v.is_nan() || *v == 0.0 || *v == 1.0);
         if numbers.present == 0 {
-            if numbers.unreadable.count > 0 { ColumnKind::Text } else { ColumnKind::Empty }
+            let text = numbers.unreadable.count > 0 || self.late.get(index).is_some_and(|l| !l.is_empty());
+            if text && self.truths.get(index) == Some(&true) {
+                return ColumnKind::Aside(Aside::Flag);
+            }
+            if text { ColumnKind::Text } else { ColumnKind::Empty }
         } else if numbers.unreadable.count > numbers.present && !told {
             ColumnKind::Text
         } else if !told && names::is_truth(name) && numbers.unreadable.count == 0 && all_bits() {
@@ -117,6 +129,26 @@ impl Roles {
             ColumnKind::Number
         }
     }
+}
+
+/// For each column whose sampled cells are one text or two, these: its numbers may begin further on.
+fn late_markers(head: &Head, options: &LoadOptions, is_time: &impl Fn(usize) -> bool) -> Vec<Vec<String>> {
+    let of = |column: usize| {
+        let mut texts: Vec<String> = Vec::new();
+        if options.rules == Rules::First || is_time(column) || head.sample.len() < 8 {
+            return texts;
+        }
+        for cell in head.column(column) {
+            match look(cell.as_bytes(), &head.reading) {
+                Look::Empty => {}
+                Look::Text if texts.iter().any(|t| t == cell) => {}
+                Look::Text if texts.len() < 2 => texts.push(cell.to_owned()),
+                _ => return Vec::new(),
+            }
+        }
+        texts
+    };
+    (0..head.names.len()).map(of).collect()
 }
 
 /// True for a column of TRUE and FALSE; where the user says that it is one of truths, for any words.

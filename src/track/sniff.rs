@@ -3,7 +3,7 @@
 use memchr::memchr;
 
 use super::number::{Cell, Reading};
-use super::odd::odd;
+use super::odd::{Oddity, odd};
 use super::time::{DateOrder, fields};
 use super::tokens::Mark;
 use super::tokens::{Layout, RecordKind, Records, inner, kind_of, line_end_of, split};
@@ -34,7 +34,7 @@ pub(crate) fn look(cell: &[u8], reading: &Reading) -> Look {
         Cell::Number(_) | Cell::Infinite => Look::Number,
         Cell::Missing => Look::Empty,
         Cell::Text if stamp::iso(cell).is_some() || stamp::clock(cell).is_some() => Look::Time,
-        Cell::Text if stamp::year_last_parts(cell).is_some() => Look::Time,
+        Cell::Text if [true, false].iter().any(|first| stamp::year_last(cell, *first).is_some()) => Look::Time,
         Cell::Text if is_stamp(cell) => Look::Time,
         Cell::Text if odd(cell, reading.decimal_comma).is_some() => Look::Number,
         Cell::Text => Look::Text,
@@ -199,9 +199,18 @@ fn has_decimal_commas(sample: &[u8], layout: Layout) -> bool {
     for_records(sample, layout, |cells| {
         for raw in cells {
             let cell = &raw[inner(raw, layout.quote)];
-            if cell.contains(&b',') && comma.number(cell).is_some() {
+            if !cell.contains(&b',') && !cell.contains(&b'.') {
+                continue;
+            }
+            let reads = |reading: &Reading, decimal_comma| {
+                reading.number(cell).is_some()
+                    || odd(cell, decimal_comma).is_some_and(|o| o.oddity != Oddity::Hexadecimal)
+            };
+            let (comma_fits, point_fits) = (reads(&comma, true), reads(&point, false));
+            if comma_fits && (!point_fits || !cell.contains(&b'.')) && cell.contains(&b',') {
+                // `1,234` says nothing where points are decimal ones as well.
                 commas += 1;
-            } else if cell.contains(&b'.') && point.number(cell).is_some() {
+            } else if point_fits && cell.contains(&b'.') {
                 points += 1;
             }
         }

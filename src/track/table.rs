@@ -65,7 +65,7 @@ impl Lines<'_> {
         for record in Records::from(self.body, self.layout, start, line) {
             let line = self.line_of(&record?);
             data += usize::from(line.is_data());
-            let far = line.next > start + bytes;
+            let far = line.next > start.saturating_add(bytes);
             lines.push(line);
             if data == most || far {
                 break;

@@ -285,6 +285,7 @@ pub(crate) fn is_midnight(last: i64, now: i64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::super::text::Text;
+    use super::super::{TimeUnit, Worded};
     use super::*;
 
     fn chosen_with(text: &str, options: &LoadOptions) -> Result<Option<(String, Option<usize>, TimeFormat)>> {
@@ -307,7 +308,11 @@ mod tests {
             ("timestamp,x\n1573495025250,1\n1573495025260,2\n", "timestamp", TimeFormat::Epoch { unit_ns: 1_000_000 }),
             ("epoch,x\n1573495025,1\n1573495026,2\n", "epoch", TimeFormat::Epoch { unit_ns: SECOND }),
             ("time_ns,x\n1573495025250000000,1\n1573495025250000001,2\n", "time_ns", TimeFormat::Epoch { unit_ns: 1 }),
-            ("gps_time,x\n1257530243,1\n1257530244,2\n", "gps_time", TimeFormat::Seconds),
+            (
+                "gps_time,x\n1257530243,1\n1257530244,2\n",
+                "gps_time",
+                TimeFormat::Since { unit_ns: SECOND, zero: super::super::Zero::Gps },
+            ),
             ("time,x\n17:57:05.25,1\n17:57:06.25,2\n", "time", TimeFormat::Clock),
             ("time,x\n3/23/2005,1\n3/24/2005,2\n", "time", TimeFormat::YearLast { day_first: false }),
             ("time;x\n23.03.2005 10:00;1,5\n24.03.2005 11:00;2,5\n", "time", TimeFormat::YearLast { day_first: true }),

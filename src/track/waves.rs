@@ -139,6 +139,7 @@ mod tests {
             repeats: &[],
             oddities: &[],
             truths: Vec::new(),
+            late: &[],
             footer: true,
         }
     }

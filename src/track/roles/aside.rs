@@ -12,7 +12,7 @@ pub(super) fn by_sample(head: &Head, column: usize, timing: Option<&Timing>) -> 
     let name = &head.names[column];
     let cells: Vec<&str> = head.column(column).into_iter().filter(|c| !head.reading.is_marker(c.as_bytes())).collect();
     let values: Vec<f64> = cells.iter().filter_map(|c| head.reading.number(c.as_bytes())).collect();
-    if values.len() < cells.len() || values.is_empty() {
+    if values.len() < cells.len() || values.is_empty() || names::is_truth(name) {
         return None;
     }
     let whole = values.iter().all(|v| v.fract() == 0.0);

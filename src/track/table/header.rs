@@ -85,8 +85,8 @@ fn heading_among(lines: &[Line], first: usize, of: &Lines<'_>, reading: &Reading
             Kind::Units if heading.units_at.is_none() && above.is_none() => {
                 (heading.units_at, heading.units) = (Some(at), cells);
             }
-            Kind::Units => break,
-            Kind::Names => match &above {
+            // The letters of dates (`YY MM DD hh mm`) are names above units like `yr mo dy hr mn`.
+            Kind::Names | Kind::Units => match &above {
                 None => above = Some((at, cells)),
                 Some((names_at, below)) => {
                     // Units that nobody knows, below names of which one is that of a time.
@@ -120,8 +120,11 @@ fn heading_among(lines: &[Line], first: usize, of: &Lines<'_>, reading: &Reading
 fn loose(lines: &[Line], first: usize, usual: usize) -> Option<(usize, Vec<String>)> {
     let above =
         (0..first).rev().take_while(|at| lines[*at].kind != RecordKind::Blank).filter(|at| lines[*at].is_data());
-    let fits = |at: &usize| (lines[*at].filled() * 2 >= usual.max(2)) && lines[*at].filled() <= 2 * usual.max(1);
-    let found = above.take(3).filter(fits).max_by_key(|at| (lines[*at].filled(), usize::MAX - at))?;
+    let keyed = |line: &Line| line.cells.iter().any(|c| c == "=" || c == ":") || line.text.contains(" = ");
+    let fits = |at: &usize| {
+        lines[*at].filled() * 2 >= usual.max(2) && lines[*at].filled() <= 2 * usual.max(1) && !keyed(&lines[*at])
+    };
+    let found = above.take(3).take_while(fits).max_by_key(|at| (lines[*at].filled(), usize::MAX - at))?;
     Some((found, lines[found].cells.clone()))
 }
 
@@ -179,7 +182,8 @@ pub(super) fn fitting(
             .find(|c| (c.len() == usual + 1 || c.len() > usual && !comment && c.len() <= usual + 2) && usual > 2)
             .cloned()
     };
-    if comment { less } else { less.or_else(more) }
+    let timed = |cells: &Vec<String>| cells.iter().any(|c| names::time_rank(c) > 0);
+    if comment { less.filter(timed) } else { less.or_else(more) }
 }
 
 /// Names of which there is one less than cells: the name of a time stands for date and time of day; rows that end with
@@ -195,7 +199,7 @@ fn widened(cells: &[String], row: Option<&Line>) -> Vec<String> {
     let index = row.and_then(|r| r.cells.first()).is_some_and(|c| c.trim_matches('"').parse::<u64>().is_ok());
     if apart {
         cells.insert(1, String::new());
-    } else if !ends_empty && index && names::time_rank(&cells[0]) == 0 {
+    } else if !ends_empty && index && (names::time_rank(&cells[0]) == 0 || told(1).is_some_and(|t| t.days.is_some())) {
         cells.insert(0, String::new());
     }
     cells

@@ -26,6 +26,15 @@ pub(crate) fn tables(lines: &[Line], reading: &Reading) -> Vec<Table> {
             tables.push(Table { first: run.start + first, after: run.end, rows });
         }
     }
+    // Keys with their values, above the rows of a table, are none.
+    let keys = |t: &Table| {
+        let rows = lines[t.first..t.after].iter().filter(|l| l.is_data());
+        let text = |l: &Line| l.cells.first().is_some_and(|c| super::look(c.as_bytes(), reading) == super::Look::Text);
+        rows.clone().all(|l| l.cells.len() <= 3 && text(l)) && t.rows < 200
+    };
+    if tables.iter().any(|t| !keys(t)) {
+        tables.retain(|t| !keys(t));
+    }
     tables
 }
 
@@ -100,13 +109,13 @@ fn another_header(lines: &[Line], at: usize, next: usize, width: usize, reading:
 /// The first row among `lines`: the first without text where the columns hold numbers, and what stands right above it
 /// and is a row too but for a few texts.
 fn first_row(lines: &[Line], typed: &[bool], reading: &Reading) -> Option<usize> {
-    let usual = usual_width(lines[lines.len() / 2..].iter().filter(|l| l.is_data()));
-    let wide = |line: &Line| line.cells.len().abs_diff(usual) <= 1;
     let is_data = |line: &&Line| line.is_data();
     let casts = |line: &Line| cast(line, typed, reading);
-    let loose = || lines.iter().position(|l| is_data(&l) && casts(l).is_row());
+    let loose = lines.iter().position(|l| is_data(&l) && casts(l).is_row())?;
+    let usual = usual_width(lines[loose..].iter().filter(|l| l.is_data()));
+    let wide = |line: &Line| line.cells.len().abs_diff(usual) <= 1;
     let strict = lines.iter().position(|l| is_data(&l) && wide(l) && casts(l).is_clean() && followed(lines, l, usual));
-    let Some(mut first) = strict else { return loose() };
+    let Some(mut first) = strict else { return Some(loose) };
     // A row with an odd text in it stays a row.
     for at in (0..first).rev() {
         let line = &lines[at];

@@ -29,7 +29,10 @@ pub(crate) fn order_of(cells: &[&str]) -> Option<DateOrder> {
     let same = kept.iter().all(|(_, m)| *m == kept[0].1);
     let suggested = || {
         let with = |text: &str| filled.iter().filter(|c| c.contains(text)).count() * 2 > filled.len();
-        let half = filled.iter().filter(|c| c.to_uppercase().ends_with('M')).count() * 2 > filled.len();
+        let half = |c: &&&str| {
+            c.to_uppercase().split(' ').any(|w| matches!(w, "AM" | "PM") || (w.ends_with('M') && w.contains(':')))
+        };
+        let half = filled.iter().filter(half).count() * 2 > filled.len();
         match () {
             () if with("/") && half => Some(DateOrder::MonthFirst),
             () if !with("/") && dotted(&filled) => Some(DateOrder::DayFirst),
@@ -69,6 +72,12 @@ pub(crate) fn order_of(cells: &[&str]) -> Option<DateOrder> {
     days.dedup();
     kept.sort_by_key(|(_, m)| span(m));
     let [first, second, ..] = kept.as_slice() else { return None };
+    // The name of a month stands between day and year, unless the steps show another order.
+    let named =
+        filled.iter().filter(|c| c.bytes().filter(u8::is_ascii_alphabetic).count() >= 3).count() * 2 > filled.len();
+    if named && days.len() < 8 {
+        return kept.iter().map(|(order, _)| *order).find(|o| *o == DateOrder::DayFirst);
+    }
     (days.len() >= 8 && span(&first.1) < span(&second.1) / 2).then_some(first.0)
 }
 

@@ -296,7 +296,7 @@ fn date(tokens: &Tokens<'_>, used: &[bool; MOST], pieces: &mut Pieces, order: Da
     let lens: Vec<usize> = left.iter().map(|t| t.len()).collect();
     let short = |n: usize| n == 1 || n == 2;
     if pieces.has(Field::MonthName) {
-        return with_month_name(tokens, left, pieces);
+        return with_month_name(tokens, left, pieces, order);
     }
     if pieces.has(Field::Week) {
         return match left {
@@ -372,13 +372,17 @@ fn date(tokens: &Tokens<'_>, used: &[bool; MOST], pieces: &mut Pieces, order: Da
 }
 
 /// Day and year beside the name of a month.
-fn with_month_name(tokens: &Tokens<'_>, left: &[Token], pieces: &mut Pieces) -> Option<()> {
+fn with_month_name(tokens: &Tokens<'_>, left: &[Token], pieces: &mut Pieces, order: DateOrder) -> Option<()> {
     let [first, second] = left else {
         // `Mar 2021`.
         let [year] = left else { return None };
         return if year.len() == 4 { pieces.push(Field::Year, year.start, year.end) } else { None };
     };
-    let (day, year) = if first.len() == 4 || tokens.value(*first) > 31 { (second, first) } else { (first, second) };
+    // `21MAR04` where the year is said to stand first.
+    let year_first =
+        order == DateOrder::YearFirst && first.len() == 2 && second.len() == 2 && tokens.value(*second) <= 31;
+    let year_first = year_first || first.len() == 4 || tokens.value(*first) > 31;
+    let (day, year) = if year_first { (second, first) } else { (first, second) };
     let field = if year.len() == 4 { Field::Year } else { Field::YearOfCentury };
     if day.len() > 2 || !matches!(year.len(), 2 | 4) {
         return None;
@@ -423,10 +427,13 @@ fn compact_clock(at: usize, length: usize, pieces: &mut Pieces) -> Option<()> {
 
 /// What is left between the fields parts them: blanks, points, slashes.
 fn others_are_separators(tokens: &Tokens<'_>, used: &[bool; MOST]) -> Option<()> {
-    let plain = |t: Token| tokens.bytes(t).iter().all(|b| b" -/.,:_()[]'".contains(b)) && t.len() <= 4;
+    let plain = |t: Token| tokens.bytes(t).iter().all(|b| b" -/.,:_()[]".contains(b)) && t.len() <= 4;
     let fits = |at: usize| used[at] || tokens.get(at).is_some_and(|t| t.kind != Kind::Other || plain(t));
     let starts = tokens.get(0).is_some_and(|t| t.kind != Kind::Other || matches!(tokens.bytes(t), b"[" | b"("));
-    ((0..tokens.count).all(fits) && starts).then_some(())
+    let last = tokens.count - 1;
+    let ends = used[last]
+        || tokens.get(last).is_some_and(|t| t.kind != Kind::Other || matches!(tokens.bytes(t), b"]" | b")" | b"."));
+    ((0..tokens.count).all(fits) && starts && ends).then_some(())
 }
 
 #[cfg(test)]
@@ -458,7 +465,6 @@ mod tests {
             "2021W094T100030",
             "04 Mar 2021 10:00:30.000",
             "04-Mar-2021 10:00:30",
-            "04-MAR-21 10:00:30",
             "4. März 2021 10:00:30",
             "Mar 4, 2021 10:00:30 AM",
             "Mar 04 2021 10:00:30",
@@ -481,6 +487,8 @@ mod tests {
             ("04.03.21 10:00:30", DateOrder::DayFirst),
             ("03/04/2021 10:00:30 AM", DateOrder::MonthFirst),
             ("3/4/21 10:00:30", DateOrder::MonthFirst),
+            ("04-MAR-21 10:00:30", DateOrder::DayFirst),
+            ("21MAR04 10:00:30", DateOrder::YearFirst),
             ("21-03-04 10:00:30", DateOrder::YearFirst),
             ("04.03.2021 10.00.30", DateOrder::DayFirst),
         ] {

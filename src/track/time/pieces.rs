@@ -225,12 +225,20 @@ struct Said {
     epoch: Option<i64>,
 }
 
+/// How far a zone lies ahead of UTC: `+01:00`, `-7`, `CET`.
+fn offset(text: &[u8]) -> Option<i64> {
+    match text {
+        [sign @ (b'+' | b'-'), hour] => stamp::offset(&[*sign, b'0', *hour]),
+        _ => stamp::offset(text).or_else(|| words::zone(text)),
+    }
+}
+
 impl Said {
     fn take(&mut self, field: Field, text: &[u8]) -> Option<()> {
         match field {
             Field::MonthName => self.month = Some(words::month(text)?),
             Field::Half => self.afternoon = Some(words::afternoon(text)?),
-            Field::Zone => self.offset = Some(stamp::offset(text).or_else(|| words::zone(text))?),
+            Field::Zone => self.offset = Some(offset(text)?),
             Field::Fraction => self.fraction = stamp::fraction_ns(text)?,
             _ => {
                 let value = stamp::integer(text)?;

@@ -166,7 +166,9 @@ impl<'a> Candidates<'a> {
         let dated = single.date_column.is_some() || self.forms[single.column].is_some_and(Form::is_dated);
         let (one, several) = (self.steps(&single), self.steps(&parts));
         let better = several.one_way() && (several.forward + several.back > one.forward + one.back || !one.one_way());
-        Ok(Some(if better || !dated && columns::tells_date(&parts) { parts } else { self.finer(single, path) }))
+        let as_fine = (several.forward + several.back) * 10 >= (one.forward + one.back) * 9;
+        let tells_more = !dated && as_fine && columns::tells_date(&parts);
+        Ok(Some(if better || tells_more { parts } else { self.finer(single, path) }))
     }
 
     /// The column that looks most like a time.
@@ -193,7 +195,17 @@ impl<'a> Candidates<'a> {
         if self.head.sample.len() < 2 {
             return (rank == 4).then_some(2);
         }
-        if rank >= 3 && steps.one_way() || rank > 0 && steps.moves_on() {
+        let several = |c: &usize| {
+            let cells = self.head.column(*c);
+            cells.iter().any(|cell| cell != &cells[0])
+        };
+        let is_id = |c: &usize| *c != column && super::super::roles::is_id_column(&self.head.names[*c]);
+        let told_apart = || (0..self.head.names.len()).filter(is_id).any(|c| several(&c));
+        if rank >= 3 && steps.one_way() || rank > 0 && (steps.moves_on() || steps.one_way() && told_apart()) {
+            return Some(2);
+        }
+        // Tracks that follow each other begin again.
+        if rank > 0 && steps.forward > 4 * steps.back && told_apart() {
             return Some(2);
         }
         // Digits that are dates need no name.
@@ -315,7 +327,9 @@ impl<'a> Candidates<'a> {
         let cells: Vec<&str> =
             self.head.column(column).into_iter().filter(|c| !self.head.reading.is_marker(c.as_bytes())).collect();
         let values = numbers(self.head, column);
-        let unit = names::time_unit_ns(&self.head.units[column]).or_else(|| names::time_unit_ns(&names::unit_of(name)));
+        let unit = names::time_unit_ns(&self.head.units[column])
+            .or_else(|| names::time_unit_ns(&names::unit_of(name)))
+            .or_else(|| names::time_unit_ns(name));
         let numbers = Numbers { name, unit, told: self.options.time_unit, cells: &cells, values: &values };
         let (format, said) = number_form(&numbers);
         let mut timing = match format {
