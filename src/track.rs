@@ -17,6 +17,7 @@ mod feed;
 mod head;
 mod inert;
 mod interval;
+mod lines;
 mod load;
 mod mend;
 mod names;
@@ -37,6 +38,7 @@ mod shape;
 mod sniff;
 mod stamp;
 mod streamed;
+mod style;
 mod table;
 mod targets;
 mod text;
@@ -51,6 +53,7 @@ mod widen;
 pub use cells::Cells;
 pub use checks::RowChecks;
 pub use inert::inert;
+pub use lines::{FileLine, LinePart, first_lines};
 pub use load::{load, load_while};
 pub(crate) use names::is_id;
 pub(crate) use number::{Cell, Reading};
@@ -65,6 +68,7 @@ pub use printable::{printable, printable_json, printable_lines};
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use series::{Samples, Series, lost_samples};
+pub use style::Style;
 pub use targets::Target;
 pub use time::{DateOrder, Part, Pattern, Zero, Zone};
 pub(crate) use tokens::split;
@@ -136,6 +140,10 @@ pub struct Dialect {
     pub preamble: usize,
     /// Where the rows stand, and what stands among them without being one.
     pub rows: RowsAt,
+    /// For each column, how its numbers are written; none where they are written as shortly as they can be.
+    pub styles: Vec<Option<Style>>,
+    /// True where every row has the same length, and cells stand below each other.
+    pub fixed_width: bool,
 }
 
 /// Where the rows of a table stand in the text.

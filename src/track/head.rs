@@ -5,6 +5,7 @@ use std::path::Path;
 use super::number::Reading;
 use super::odd::{Oddity, odd};
 use super::sniff::{SAMPLE_BYTES, sniff};
+use super::style::Style;
 use super::table::{Heading, Line, Lines, Table, heading, mark_of, tables, usual_width};
 use super::text::Text;
 use super::tokens::{Layout, Mark, OpenQuote};
@@ -59,6 +60,10 @@ pub(crate) struct Head {
     pub(crate) record_bytes: usize,
     /// For each column, which oddities its cells may have.
     pub(crate) oddities: Vec<Vec<Oddity>>,
+    /// For each column, how its numbers are written.
+    pub(crate) styles: Vec<Option<Style>>,
+    /// True where every row has the same length.
+    pub(crate) fixed_width: bool,
     /// What was recognised that a user may want to correct.
     pub(crate) said: Vec<String>,
     /// True when the first lines were enough to tell all.
@@ -135,6 +140,14 @@ impl Head {
         let last = rows[rows.len() - 1];
         let sample: Vec<Vec<String>> = rows.iter().map(|l| l.cells.clone()).collect();
         let oddities = (0..width).map(|c| oddities_of(&sample, c, &reading, options)).collect();
+        let cells = |c: usize| sample.iter().filter_map(move |row| row.get(c)).map(String::as_str);
+        let second = options.rules == Rules::Second;
+        let style = |c: usize| Style::of(cells(c), &reading).filter(|_| second);
+        let styles = (0..width).map(style).collect();
+        let fixed_width = second
+            && of.layout.delimiter == super::Delimiter::Blanks
+            && rows.len() > 2
+            && rows.iter().all(|r| r.length == row.length);
         let end = lines.last().filter(|_| table.after < seen.lines.len()).map(|l| l.next);
         Ok(Self {
             layout: of.layout,
@@ -154,6 +167,8 @@ impl Head {
             sample,
             reading,
             oddities,
+            styles,
+            fixed_width,
             said: seen.said(number, first, of.layout.mark, options),
             complete: seen.complete && end.is_none(),
         })

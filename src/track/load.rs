@@ -9,7 +9,7 @@ use super::mend::{About, Mended};
 use super::odd::Oddity;
 use super::order::{Moments, Ordered, Rows, order, sample_numbers};
 use super::roles::{Roles, assign, release};
-use super::shape::{refuse_long_form, refuse_other_formats};
+use super::shape::{refuse_binaries, refuse_long_form, refuse_other_formats};
 use super::streamed::streamed;
 use super::targets::{self, Targets};
 use super::text::{Text, path_of, sha256, stored};
@@ -47,6 +47,7 @@ pub fn load_while(source: &Source, options: &LoadOptions, wanted: Wanted<'_>) ->
     let path = path_of(source);
     let stored = stored(source)?;
     still()?;
+    refuse_binaries(&stored, &path)?;
     let text = Text::of(&stored, &path, options.encoding)?;
     still()?;
     let understood = Understood::of(&text, options, &path)?;
@@ -290,6 +291,8 @@ impl Understood {
         };
         Dialect {
             rows,
+            styles: head.styles.clone(),
+            fixed_width: head.fixed_width,
             delimiter: head.layout.delimiter,
             quote: head.layout.quote,
             decimal_comma: head.reading.decimal_comma,

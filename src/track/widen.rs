@@ -61,7 +61,7 @@ pub fn widen(track: &Track, changes: &[CellChange], columns: &[NewColumn<'_>], o
             edits.push((track.columns.len() + i, filled((column.cell)(row, &cells), layout)));
         }
         pen.text(&body[written..record.start])?;
-        pen.text(&patched(record.bytes, spans, layout, &edits))?;
+        pen.text(&patched(record.bytes, spans, (layout, false), &edits))?;
         written = record.start + record.bytes.len();
         Ok(true)
     })?;
@@ -83,7 +83,7 @@ fn head(track: &Track, text: &Text<'_>, layout: Layout, columns: &[NewColumn<'_>
         let edits: Vec<(usize, String)> =
             cells.into_iter().enumerate().map(|(i, cell)| (track.columns.len() + i, cell)).collect();
         pen.text(&body[written..start])?;
-        pen.text(&patched(record, &spans, layout, &edits))?;
+        pen.text(&patched(record, &spans, (layout, false), &edits))?;
         written = start + length;
     }
     Ok(written)

@@ -46,7 +46,8 @@ fn is_time_like(head: &Head, column: usize, name: &str, one_way: bool, timing: O
     let rank = names::time_rank(name);
     let cells = head.column(column);
     let dated = super::super::time::digits_are_dates(&cells) && one_way;
-    let named = rank >= 3 || (rank == 2 && column != timing.column) || names::is_gps_time(name);
+    let of_year = ["doy", "jday", "yday", "dayofyear"].iter().any(|w| name.eq_ignore_ascii_case(w));
+    let named = of_year || rank >= 3 || (rank == 2 && column != timing.column) || names::is_gps_time(name);
     dated || (named && one_way) || matches!(Form::of(head, column, None), Some(f) if f.is_dated())
 }
 
@@ -198,6 +199,6 @@ fn is_date_part(name: &str, values: &[f64]) -> bool {
         || any(&["doy", "jday", "yday"]) && within(0.0, 367.0)
         || any(&["hour", "hr", "hh", "stunde"]) && within(0.0, 24.0)
         || any(&["minute", "mn", "mins"]) && within(0.0, 60.0)
-        || any(&["weekday", "dow"]) && within(0.0, 7.0)
+        || any(&["weekday", "dow", "d"]) && within(0.0, 7.0)
         || names::words(name).iter().any(|w| w.eq_ignore_ascii_case("week")) && within(0.0, 5000.0)
 }

@@ -53,7 +53,20 @@ pub(crate) fn heading(lines: &[Line], first: usize, of: &Lines<'_>, reading: &Re
         return plain;
     }
     let all = heading_among(lines, first, of, reading, true);
-    if plain.names_at.is_none() || timed(&all) { all } else { plain }
+    if all.names_at.is_some() && (plain.names_at.is_none() || timed(&all)) {
+        return all;
+    }
+    if plain.names_at.is_some() {
+        return plain;
+    }
+    let usual = usual_width(lines[first..].iter().filter(|l| l.is_data()).take(200));
+    let loose = loose(lines, first, usual);
+    loose.map_or(plain, |(at, cells)| Heading {
+        names_at: Some(at),
+        cells: Some(cells.len()),
+        names: cells,
+        ..Heading::default()
+    })
 }
 
 fn heading_among(lines: &[Line], first: usize, of: &Lines<'_>, reading: &Reading, comments: bool) -> Heading {
@@ -106,9 +119,6 @@ fn heading_among(lines: &[Line], first: usize, of: &Lines<'_>, reading: &Reading
         let units = std::mem::take(&mut heading.units);
         above = heading.units_at.take().map(|at| (at, units));
     }
-    if above.is_none() && !comments {
-        above = loose(lines, first, usual);
-    }
     if let Some((at, cells)) = above {
         heading.cells = Some(lines[at].cells.len());
         (heading.names_at, heading.names) = (Some(at), cells);
@@ -121,8 +131,16 @@ fn loose(lines: &[Line], first: usize, usual: usize) -> Option<(usize, Vec<Strin
     let above =
         (0..first).rev().take_while(|at| lines[*at].kind != RecordKind::Blank).filter(|at| lines[*at].is_data());
     let keyed = |line: &Line| line.cells.iter().any(|c| c == "=" || c == ":") || line.text.contains(" = ");
+    let plain = Reading::default();
+    let worded = |line: &Line| {
+        let texts = line.cells.iter().filter(|c| look(c.as_bytes(), &plain) == Look::Text).count();
+        texts * 2 > line.filled()
+    };
     let fits = |at: &usize| {
-        lines[*at].filled() * 2 >= usual.max(2) && lines[*at].filled() <= 2 * usual.max(1) && !keyed(&lines[*at])
+        lines[*at].filled() * 2 >= usual.max(2)
+            && lines[*at].filled() <= 2 * usual.max(1)
+            && !keyed(&lines[*at])
+            && worded(&lines[*at])
     };
     let found = above.take(3).take_while(fits).max_by_key(|at| (lines[*at].filled(), usize::MAX - at))?;
     Some((found, lines[found].cells.clone()))
@@ -194,7 +212,13 @@ fn widened(cells: &[String], row: Option<&Line>) -> Vec<String> {
         let text = row?.cells.get(at)?.as_bytes();
         fields(text, DateOrder::YearFirst).or_else(|| fields(text, DateOrder::DayFirst))?.told(text)
     };
-    let apart = told(0).is_some_and(|t| t.days.is_some() && !t.clock) && told(1).is_some_and(|t| t.days.is_none());
+    // GPS week and seconds of the week.
+    let number = |at: usize| row.and_then(|r| r.cells.get(at)?.parse::<f64>().ok());
+    let week = number(0).is_some_and(|w| (500.0..5000.0).contains(&w) && w.fract() == 0.0)
+        && number(1).is_some_and(|s| (0.0..=604_800.0).contains(&s))
+        && names::time_rank(&cells[0]) > 0;
+    let apart =
+        week || told(0).is_some_and(|t| t.days.is_some() && !t.clock) && told(1).is_some_and(|t| t.days.is_none());
     let ends_empty = row.and_then(|r| r.cells.last()).is_none_or(String::is_empty);
     let index = row.and_then(|r| r.cells.first()).is_some_and(|c| c.trim_matches('"').parse::<u64>().is_ok());
     if apart {
@@ -208,7 +232,11 @@ fn widened(cells: &[String], row: Option<&Line>) -> Vec<String> {
 /// The cells of a line between other delimiters than those of the rows, and after a word with a colon.
 fn other_ways<'a>(line: &'a Line, of: &'a Lines<'_>) -> impl Iterator<Item = Vec<String>> + 'a {
     let delimiters = [b',', b';', b'\t', b'|'].map(Delimiter::Byte).into_iter().chain([Delimiter::Blanks]);
-    let rest = line.text.split_once(':').map(|(_, rest)| Line { text: rest.trim().to_owned(), ..line.clone() });
+    let rest = line
+        .text
+        .split_once(':')
+        .filter(|(before, _)| !before.contains('='))
+        .map(|(_, rest)| Line { text: rest.trim().to_owned(), ..line.clone() });
     let layout = of.layout;
     let ways = delimiters
         .filter(move |d| *d != layout.delimiter)

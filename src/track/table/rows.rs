@@ -133,6 +133,10 @@ fn first_row(lines: &[Line], typed: &[bool], reading: &Reading) -> Option<usize>
             break;
         }
     }
+    // Types of columns (`5s 15s 20d`) are no numbers with units.
+    while lines[first].cells.len() > 1 && super::units::are_types(&lines[first].cells) {
+        first += 1 + lines[first + 1..].iter().position(|l| is_data(&l))?;
+    }
     Some(first)
 }
 

@@ -118,6 +118,11 @@ pub(super) fn kind_of(cells: &[String]) -> Kind {
     }
 }
 
+/// True for a line of types or statistics.
+pub(super) fn are_types(cells: &[String]) -> bool {
+    kind_of(cells) == Kind::Types
+}
+
 /// Is this text, in lower case, a unit?
 pub(super) fn is_unit(text: &str) -> bool {
     let bare = text.trim_matches(['(', ')', '[', ']']).trim();

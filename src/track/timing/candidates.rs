@@ -27,6 +27,17 @@ pub(crate) struct Steps {
     pub(crate) usual: i64,
 }
 
+/// The order that a name like `Date (MM/DD/YYYY)` tells.
+fn named_order(name: &str) -> Option<DateOrder> {
+    let lower: String = name.to_lowercase().chars().map(|c| if matches!(c, '.' | '-') { '/' } else { c }).collect();
+    let german = lower.contains("tt/mm");
+    match () {
+        () if lower.contains("mm/dd") && !lower.contains("yy/mm/dd") => Some(DateOrder::MonthFirst),
+        () if lower.contains("dd/mm") || german => Some(DateOrder::DayFirst),
+        () => None,
+    }
+}
+
 impl Steps {
     /// Of moments in the order of the file; those that cannot be read are left out.
     pub(crate) fn of(moments: &[i64]) -> Self {
@@ -319,7 +330,9 @@ impl<'a> Candidates<'a> {
             let order = if day_first { DateOrder::DayFirst } else { DateOrder::MonthFirst };
             return Ok(order);
         }
-        order_of(&cells).ok_or_else(|| undecided(self.head, column, path))
+        named_order(&self.head.names[column])
+            .or_else(|| order_of(&cells))
+            .ok_or_else(|| undecided(self.head, column, path))
     }
 
     fn number_timing(&self, column: usize) -> Timing {

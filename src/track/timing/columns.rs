@@ -111,8 +111,16 @@ impl Found {
         let mut found = Self::default();
         let order = [Named::Year, Named::Month, Named::Day, Named::Hour, Named::Minute, Named::Second];
         let first = usize::from(!fits(c, 0, Named::Year));
+        let mut skipped = 0;
         for (i, part) in order.into_iter().enumerate() {
-            let column = first + i;
+            let column = first + i + skipped;
+            // A day of the year may stand between the year and the month.
+            let column = if part == Named::Month && !fits(c, column, part) && fits(c, column, Named::DayOfYear) {
+                skipped = 1;
+                column + 1
+            } else {
+                column
+            };
             // The second may have decimals; the others are whole.
             if column >= c.head.names.len() || !fits(c, column, part) {
                 break;
@@ -216,12 +224,26 @@ fn fits(c: &Candidates<'_>, column: usize, part: Named) -> bool {
 /// The time in several columns, where there is one that goes forward.
 pub(super) fn recognised(c: &Candidates<'_>) -> Option<Timing> {
     let nameless = c.head.names.iter().enumerate().all(|(i, n)| *n == format!("column_{}", i + 1));
+    if let Some(timing) = week_by_place(c) {
+        return Some(timing);
+    }
     let found = if nameless { Found::by_place(c) } else { Found::by_name(c, 0..c.head.names.len()) };
     let timing = assembled(c, &found)?;
     let steps = c.steps(&timing);
     // Tracks may each start again.
     let fits = steps.one_way() || (!nameless && steps.forward > steps.back && steps.forward > 0);
     fits.then_some(timing)
+}
+
+/// A week of the GPS calendar under the name of a time, and seconds of the week in the column after it, without a name.
+fn week_by_place(c: &Candidates<'_>) -> Option<Timing> {
+    let nameless = c.head.names.get(1).is_some_and(|n| n == "column_2");
+    let week = fits(c, 0, Named::Week) && numbers(c.head, 0).iter().all(|w| *w >= 500.0);
+    if !nameless || !week || !fits(c, 1, Named::SecondOfWeek(SECOND)) || names::time_rank(&c.head.names[0]) == 0 {
+        return None;
+    }
+    let timing = Timing::of_parts(vec![0, 1], vec![Part::GpsWeek, Part::Count { unit_ns: SECOND }]);
+    c.steps(&timing).one_way().then_some(timing)
 }
 
 /// The columns that the user says are one time, in any order.
