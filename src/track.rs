@@ -14,6 +14,7 @@ mod cells;
 mod checks;
 mod chunk;
 mod feed;
+mod formats;
 mod head;
 mod inert;
 mod interval;
@@ -52,6 +53,7 @@ mod widen;
 
 pub use cells::Cells;
 pub use checks::RowChecks;
+pub use formats::{FORMATS, Format, format_of};
 pub use inert::inert;
 pub use lines::{FileLine, LinePart, first_lines};
 pub use load::{load, load_while};

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::body::{Body, Numbers, Plan};
 use super::feed::{Feed, Unfit};
+use super::formats;
 use super::head::{Head, open_quote};
 use super::mend::{About, Mended};
 use super::odd::Oddity;
@@ -66,7 +67,7 @@ pub fn load_while(source: &Source, options: &LoadOptions, wanted: Wanted<'_>) ->
         Failure::Open(quote) => open_quote(&path, quote),
         Failure::Unfit(_) => Error::input(&path, "it cannot be read", "copy or fetch the file again"),
     })?;
-    let track = understood.track(source, sha256, parsed, (options, wanted), &|| Ok(feed(text.body())));
+    let track = understood.track(source, sha256, parsed, wanted, &|| Ok(feed(text.body())));
     still()?;
     track
 }
@@ -80,6 +81,8 @@ pub(super) struct Understood {
     gzip: bool,
     path: PathBuf,
     rules: Rules,
+    /// What the user told, completed by the format.
+    options: LoadOptions,
 }
 
 /// A number that is written with a decimal comma between commas would be two cells.
@@ -104,7 +107,13 @@ impl Understood {
     /// From the text, or from so much of it that [`Head::needs_no_more`].
     pub(super) fn of(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
         refuse_other_formats(text.body(), path)?;
-        let head = Head::of(text, options, path)?;
+        let (completed, format) = match options.rules {
+            Rules::First => (options.clone(), None),
+            Rules::Second => formats::completed(text.body(), options),
+        };
+        let options = &completed;
+        let mut head = Head::of(text, options, path)?;
+        head.said.extend(format.map(|f| format!("recognised as {}: {}", f.name, f.about)));
         refuse_torn_decimals(&head)?;
         if options.track.is_none() {
             refuse_long_form(&head, path)?;
@@ -114,7 +123,7 @@ impl Understood {
         let roles = assign(&head, timing.as_ref(), options)?;
         let (encoding, gzip) = (text.encoding, text.gzip);
         let rules = options.rules;
-        Ok(Self { head, timing, roles, encoding, gzip, path: path.to_path_buf(), rules })
+        Ok(Self { head, timing, roles, encoding, gzip, path: path.to_path_buf(), rules, options: completed })
     }
 
     /// Parses the rows of a feed that begins with the first of them and has about so many bytes; gives the feed of
@@ -162,9 +171,10 @@ impl Understood {
         source: &Source,
         sha256: String,
         (mut body, moments): Parsed,
-        (options, wanted): (&LoadOptions, Wanted<'_>),
+        wanted: Wanted<'_>,
         again: Again<'_>,
     ) -> Result<Track> {
+        let options = &self.options;
         let Self { head, timing, roles, path, .. } = self;
         let timing = timing.as_ref();
         if u32::try_from(body.rows).is_err() {

@@ -59,7 +59,7 @@ fn checked(path: &Path, check: Check, options: &LoadOptions, wanted: Wanted<'_>)
         Ok(feed)
     };
     let source = Source::File(path.to_path_buf());
-    understood.track(&source, sha256, parsed, (options, wanted), &again).map_err(|_| UNFIT)
+    understood.track(&source, sha256, parsed, wanted, &again).map_err(|_| UNFIT)
 }
 
 /// What the head tells, and the bytes of the byte order mark and of what stands before the rows.

@@ -175,6 +175,9 @@ pub(super) fn fitting(
     let texts = |cells: &[String]| {
         let numbers = cells.iter().filter(|c| matches!(look(c.as_bytes(), reading), Look::Number | Look::Time)).count();
         let words = cells.iter().filter(|c| look(c.as_bytes(), reading) == Look::Text).count();
+        if kind_of(cells) == Kind::Types {
+            return true;
+        }
         // Numbers may be names (of depths, of bins) beside others.
         words > 0 && (!comment || numbers == 0)
     };

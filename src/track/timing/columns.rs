@@ -186,7 +186,7 @@ fn digits_clock(c: &Candidates<'_>, taken: &[usize]) -> Option<usize> {
         let name = c.head.names[*i].to_lowercase();
         let named = names::time_rank(&name) > 0 || name.contains("hhmm") || name.contains("hour");
         let reads = |cell: &&str| super::super::time::part_clock(cell.as_bytes()).is_some();
-        let moves = numbers(c.head, *i).windows(2).any(|w| w[0].to_bits() != w[1].to_bits());
+        let moves = name.contains("hhmm") || numbers(c.head, *i).windows(2).any(|w| w[0].to_bits() != w[1].to_bits());
         c.forms[*i] == Some(Form::Number) && named && !taken.contains(i) && moves && cells.iter().all(reads)
     };
     (0..c.forms.len()).find(fits)
@@ -194,6 +194,9 @@ fn digits_clock(c: &Candidates<'_>, taken: &[usize]) -> Option<usize> {
 
 /// Do the cells of the column hold what its name says?
 fn fits(c: &Candidates<'_>, column: usize, part: Named) -> bool {
+    if column >= c.head.names.len() {
+        return false;
+    }
     if part == Named::Month && c.forms[column] != Some(Form::Number) {
         let cells = c.head.column(column);
         return !cells.is_empty() && cells.iter().all(|cell| super::super::time::is_month(cell.as_bytes()));
@@ -229,6 +232,9 @@ pub(super) fn recognised(c: &Candidates<'_>) -> Option<Timing> {
     }
     let found = if nameless { Found::by_place(c) } else { Found::by_name(c, 0..c.head.names.len()) };
     let timing = assembled(c, &found)?;
+    // Seconds without a name are seconds only where minutes stand still.
+    let without = assembled(c, &Found { second: None, ..found }).filter(|_| nameless);
+    let timing = without.filter(|t| c.steps(t).repeated == 0).unwrap_or(timing);
     let steps = c.steps(&timing);
     // Tracks may each start again.
     let fits = steps.one_way() || (!nameless && steps.forward > steps.back && steps.forward > 0);

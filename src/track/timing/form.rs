@@ -52,7 +52,9 @@ impl Form {
             Some(Self::Iso { date_only: most(&|c| !clocked(c)) })
         } else if most(&|c| [true, false].iter().any(|first| stamp::year_last(c, *first).is_some())) {
             Some(Self::YearLast { date_only: most(&|c| !clocked(c)) })
-        } else if most(&|c| stamp::clock(c).is_some()) && !cells.iter().any(|c| beyond_a_day(c)) {
+        } else if most(&|c| stamp::clock(c).is_some())
+            && !cells.iter().any(|c| c.starts_with(b"24:") || beyond_a_day(c))
+        {
             Some(Self::Clock)
         } else if most(&|c| told(c).is_some_and(|t| t.days.is_some())) {
             Some(Self::Stamp { date_only: !most(&|c| told(c).is_some_and(|t| t.clock)) })
@@ -87,7 +89,7 @@ impl Form {
 
 /// 24 hours and more.
 fn beyond_a_day(cell: &[u8]) -> bool {
-    duration(cell).is_some_and(|ns| ns >= super::DAY + super::SECOND || (ns == super::DAY && cell.starts_with(b"24")))
+    duration(cell).is_some_and(|ns| ns >= super::DAY + super::SECOND)
 }
 
 /// The numbers of the sampled cells of a column.
