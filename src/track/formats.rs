@@ -78,7 +78,7 @@ mod tests {
         let cnv = loaded(&format!(
             "{cnv}{}",
             rows(&|i| format!(
-                "{:11.3} {:11.4}\n",
+                "{:11.3} {:>11}\n",
                 i as f64 * 0.25,
                 if i == 7 { "-9.990e-29".into() } else { format!("{}.5", i * i % 7) }
             ))

@@ -181,7 +181,8 @@ impl Targets {
     ) -> Result<Self> {
         let targets = Self::read(track, column, again, head)?;
         track.channels = targets.channels(std::mem::take(&mut track.channels), head, options)?;
-        track.notes = targets.notes(track);
+        let notes = targets.notes(track);
+        track.notes.extend(notes);
         Ok(targets)
     }
 

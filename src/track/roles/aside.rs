@@ -37,7 +37,8 @@ pub(super) fn by_sample(head: &Head, column: usize, timing: Option<&Timing>) -> 
     if values.len() >= LEAST && whole && !decimals && steps().all(|s| s == 1.0) {
         return Some(Aside::Index);
     }
-    (whole && distinct <= 12 && is_quality(name) && !decimals).then_some(Aside::Quality)
+    let few = if distinct <= 2 && is_flag(name) { Aside::Flag } else { Aside::Quality };
+    (whole && distinct <= 12 && is_quality(name) && !decimals).then_some(few)
 }
 
 /// Another time than the one of the rows.

@@ -155,12 +155,7 @@ fn are_units(names_above: &[String], below: &[String], upper: &Line, lower: &Lin
     let same_kind = upper.kind == lower.kind;
     // A title fills fewer cells than the names below it; a pair of key and value is no pair of names.
     let pairs = names_above.len() == 2 && !timed(names_above);
-    same_kind
-        && right_above
-        && short
-        && !pairs
-        && filled(names_above) >= filled(below)
-        && (!timed(below) || timed(names_above))
+    same_kind && right_above && short && !pairs && filled(names_above) >= filled(below) && timed(names_above)
 }
 
 /// The cells of a line, where there is one for each column: as the rows are parted, with one less, or in another way.
