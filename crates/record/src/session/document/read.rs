@@ -16,7 +16,7 @@ use crate::repair;
 use crate::review::{Decision, Decisions, Ruling};
 use crate::session::digest::{Digest, WrittenDigest};
 use crate::session::{Data, Plan, Recorded, Session, Setup, folder_of, method_of_id, tidied};
-use crate::track::{DASH, LoadOptions, Source, Worded};
+use crate::track::{DASH, LoadOptions, Pattern, Rules, Source, Worded};
 
 /// A session file larger than this is none.
 const LARGEST: u64 = 64 << 20;
@@ -79,6 +79,17 @@ struct WrittenData {
     header: Option<bool>,
     quotes: Option<bool>,
     day_first: Option<bool>,
+    time_format: Option<Spanned<String>>,
+    time_zone: Option<String>,
+    header_line: Option<usize>,
+    skip: Option<usize>,
+    units_line: Option<usize>,
+    comment: Option<String>,
+    #[serde(default)]
+    names: Vec<String>,
+    table: Option<usize>,
+    /// By which rules the record was understood; the first, where nothing is said.
+    rules: Option<Spanned<i64>>,
 }
 
 #[derive(Deserialize)]
@@ -257,6 +268,15 @@ impl Reader<'_> {
             header: data.header,
             quotes: data.quotes,
             day_first: data.day_first,
+            time_format: self.pattern(data.time_format)?,
+            time_zone: data.time_zone,
+            header_line: data.header_line,
+            skip: data.skip,
+            units_line: data.units_line,
+            comment: data.comment,
+            names: data.names,
+            table: data.table,
+            rules: self.rules(data.rules)?,
             channels: Vec::new(),
         };
         Ok(Data {
@@ -267,6 +287,24 @@ impl Reader<'_> {
             record_was: self.told("record_was", data.record_was)?,
             row_check: data.row_check,
             options,
+        })
+    }
+
+    fn pattern(&self, text: Option<Spanned<String>>) -> Result<Option<Pattern>> {
+        let Some(text) = text else { return Ok(None) };
+        Pattern::new(text.get_ref()).map(Some).map_err(|e| self.wrap(self.line(text.span()), e))
+    }
+
+    fn rules(&self, number: Option<Spanned<i64>>) -> Result<Rules> {
+        let Some(number) = number else { return Ok(Rules::First) };
+        Rules::of_number(*number.get_ref()).ok_or_else(|| {
+            let what = format!("rules = {}: this program knows rules 1 and 2", number.get_ref());
+            fault(
+                self.path,
+                self.line(number.span()),
+                what,
+                "use the version of wildpoint that wrote it, or a later one",
+            )
         })
     }
 
