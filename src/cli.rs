@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::method::shared::MAX_GAP;
 use crate::repair;
 use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
-use crate::track::{DASH, Delimiter, Encoding, LoadOptions, TimeUnit, Worded};
+use crate::track::{DASH, Delimiter, Encoding, LoadOptions, Pattern, Rules, TimeUnit, Worded};
 
 mod experiments;
 mod prepare;
@@ -188,10 +188,12 @@ impl Command {
 /// How to load a record.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Load {
-    /// Time column [default: a column that looks like time, else the sample number].
+    /// Time column, or several with commas between them (`date,time` or `year,month,day,hour`) [default: what looks like
+    /// time, else the sample number].
     #[arg(long, value_name = "COLUMN")]
     pub time: Option<String>,
-    /// Channel to work on; repeatable [default: every numeric column that is neither time nor truth].
+    /// Channel to work on; repeatable [default: every column of measurements; not
+    /// times, ids, flags and constants, for which `inspect` says why].
     #[arg(long, value_name = "COLUMN")]
     pub channel: Vec<String>,
     /// Column of an id (satellite, aircraft, station) that tells several tracks in one table apart: each is judged by
@@ -226,6 +228,44 @@ pub struct Load {
     /// How dates like 1/2/2005 are meant, where the file does not show it.
     #[arg(long, value_enum, value_name = "ORDER")]
     pub dates: Option<DateOrder>,
+    /// How times are written: %d.%m.%Y %H:%M:%S%.f (%j day of the year, %b month, %p AM/PM, %z zone) [default:
+    /// recognised].
+    #[arg(long, value_name = "PATTERN", value_parser = pattern)]
+    pub time_format: Option<Pattern>,
+    /// Zone of clocks that write none, like Europe/Berlin or +01:00 [default: UTC].
+    #[arg(long, value_name = "ZONE")]
+    pub time_zone: Option<String>,
+    /// Line (from 1) that names the columns [default: recognised from the rows below it].
+    #[arg(long, value_name = "N", value_parser = from_one)]
+    pub header_line: Option<usize>,
+    /// Lines at the start of the file that are not looked at.
+    #[arg(long, value_name = "N")]
+    pub skip: Option<usize>,
+    /// Line (from 1) of the units of the columns.
+    #[arg(long, value_name = "N", value_parser = from_one)]
+    pub units_line: Option<usize>,
+    /// What comments begin with, besides #, % and //.
+    #[arg(long, value_name = "TEXT", value_parser = mark)]
+    pub comment: Option<String>,
+    /// Names of the columns, with commas between them, in place of those of the file; an empty one stays.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub names: Vec<String>,
+    /// Which table of a file that has several (from 1) [default: the longest].
+    #[arg(long, value_name = "N", value_parser = from_one)]
+    pub table: Option<usize>,
+}
+
+fn pattern(text: &str) -> std::result::Result<Pattern, String> {
+    Pattern::new(text).map_err(|e| e.to_string())
+}
+
+fn from_one(text: &str) -> std::result::Result<usize, String> {
+    text.parse().ok().filter(|n| *n > 0).ok_or_else(|| "a whole number from 1 is wanted".into())
+}
+
+fn mark(text: &str) -> std::result::Result<String, String> {
+    let fits = (1..=16).contains(&text.len());
+    if fits { Ok(text.to_owned()) } else { Err("1 to 16 bytes are wanted".into()) }
 }
 
 /// One of the words for a value.
@@ -369,6 +409,15 @@ impl Load {
             header: self.no_header.then_some(false),
             quotes: self.no_quotes.then_some(false),
             day_first: self.dates.map(|d| d == DateOrder::DayFirst),
+            time_format: self.time_format.clone(),
+            time_zone: self.time_zone.clone(),
+            header_line: self.header_line,
+            skip: self.skip,
+            units_line: self.units_line,
+            comment: self.comment.clone(),
+            names: self.names.clone(),
+            table: self.table,
+            rules: Rules::default(),
         }
     }
 }

@@ -12,13 +12,13 @@ use wildpoint::memory;
 use wildpoint::report::Summary;
 use wildpoint::session::{Analysed, Session, open_all};
 use wildpoint::stop::Stop;
-use wildpoint::track::{DASH, Source, Wanted, load, printable_lines, take_unfinished_away};
+use wildpoint::track::{DASH, LoadOptions, Source, Wanted, load, printable_lines, take_unfinished_away};
 use wildpoint::tui::config::{self, Config};
 use wildpoint::tui::files::is_session;
 use wildpoint::tui::journal::folder;
 use wildpoint::tui::plot::Glyphs;
 use wildpoint::tui::theme::{ColorDepth, Theme};
-use wildpoint::tui::{Ended, Look, Opening, run, still};
+use wildpoint::tui::{Ended, Look, Misread, Opening, run, still};
 
 fn main() -> ExitCode {
     bear_the_limit_of_files();
@@ -102,13 +102,21 @@ fn workbench(cli: &Cli) -> Result<Ended> {
     batch::set_threads(cli.shared.threads)?;
     let mut config = configured(&cli.config)?;
     config.screen.mouse &= !cli.no_mouse;
-    let opening = opening(cli)?;
     let stdout = std::io::stdout();
     let dumb = std::env::var("TERM").is_ok_and(|t| t == "dumb");
-    if stdout.is_terminal() && !dumb {
+    let screen = stdout.is_terminal() && !dumb;
+    let (opening, misread) = match opening(cli) {
+        // Where there is a screen, the file is shown with what can be said about it.
+        Err(e @ (Error::Input { .. } | Error::Usage { .. })) if screen => {
+            let (opening, misread) = misread(cli, e)?;
+            (opening, Some(misread))
+        }
+        opening => (opening?, None),
+    };
+    if screen {
         let journal = if cli.no_journal { None } else { folder() };
         let look = Look { theme: theme(cli, &config), glyphs: glyphs(cli, &config) };
-        return run(opening, look, config, journal);
+        return run(opening, look, config, journal, misread);
     }
     let analysed = {
         let mut first = opening.session.clone();
@@ -144,6 +152,21 @@ fn opening(cli: &Cli) -> Result<Opening> {
     let mut session = Session::new(&track, options, &setup);
     cli.shared.prepare.prepare(&mut session, &track, cli.shared.preset)?;
     Ok(Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() })
+}
+
+/// The demonstration record, with what is to be opened over it: a file that could not be understood; the error itself,
+/// where no other way of loading helps.
+fn misread(cli: &Cli, e: Error) -> Result<(Opening, Misread)> {
+    let path = cli.file.clone().filter(|path| path.is_file() && !is_session(path));
+    let Some(path) = path else { return Err(e) };
+    let source = Source::demo();
+    let setup = cli.shared.setup()?;
+    let track = load(&source, &LoadOptions::default())?;
+    let session = Session::new(&track, LoadOptions::default(), &setup);
+    let mut options = cli.shared.load.options(None);
+    options.channels.clear();
+    let opening = Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() };
+    Ok((opening, Misread { source: Source::File(path), options }))
 }
 
 /// The configuration that the command line asks for.

@@ -14,7 +14,7 @@ use ratatui::layout::Rect;
 use crate::error::Result;
 use crate::session::{Opened, Session};
 use crate::stop::Stop;
-use crate::track::Track;
+use crate::track::{LoadOptions, Source, Track};
 use advice::Advise;
 use config::Config;
 use files::Task;
@@ -68,6 +68,15 @@ pub struct Look {
     pub theme: Theme,
     /// Glyphs.
     pub glyphs: Glyphs,
+}
+
+/// A file that could not be understood.
+#[derive(Debug)]
+pub struct Misread {
+    /// The file.
+    pub source: Source,
+    /// What was told of it.
+    pub options: LoadOptions,
 }
 
 /// What is opened: a record, a session on it, and the file of that session.
@@ -155,7 +164,15 @@ pub fn text_of(buffer: &Buffer) -> String {
 ///
 /// # Errors
 /// When the terminal cannot be used.
-pub fn run(opening: Opening, look: Look, config: Config, journal: Option<PathBuf>) -> Result<Ended> {
+///
+/// With a `misread` file, the dialog that corrects how it is loaded is open at the start.
+pub fn run(
+    opening: Opening,
+    look: Look,
+    config: Config,
+    journal: Option<PathBuf>,
+    misread: Option<Misread>,
+) -> Result<Ended> {
     let mut model = opening.model(look);
     model.keys = config.keys;
     (model.mouse, model.review.auto_advance) = (config.screen.mouse, config.screen.auto_advance);
@@ -163,7 +180,7 @@ pub fn run(opening: Opening, look: Look, config: Config, journal: Option<PathBuf
     let mut outside = Outside::new(journal, &mut model);
     let mut screen = Screen::take(model.mouse)?;
     let pace = Pace::new(&config.screen);
-    let left = work(&mut model, &mut outside, &mut screen, pace, &signals);
+    let left = work(&mut model, &mut outside, &mut screen, pace, (&signals, misread));
     let left = match left {
         Err(e) if signals::is_gone(&e) => Ok(Left::Signalled(HANG_UP)),
         other => other,
@@ -190,12 +207,15 @@ fn work(
     outside: &mut Outside,
     screen: &mut Screen,
     mut pace: Pace,
-    signals: &Receiver<Signalled>,
+    (signals, misread): (&Receiver<Signalled>, Option<Misread>),
 ) -> Result<Left> {
     model.size = screen.size()?;
     let mut first = vec![Effect::Analyse(model.shown)];
     let path = model.file.clone().or_else(|| model.track.source.path().map(Path::to_path_buf));
     first.extend(path.map(|path| Effect::Files(Task::Remember(path))));
+    if let Some(Misread { source, options }) = misread {
+        first.extend(update::misread(model, source, options));
+    }
     outside.carry_out(model, screen, first)?;
     let events = listen_for_events();
     let mut normaliser = Normaliser::default();

@@ -131,7 +131,7 @@ fn the_picker_shows_recent_files_the_folder_and_what_a_file_is() {
         let effects = bench.key(KeyCode::Down);
         let glance = Glance::file(DEMO.into());
         assert_eq!(effects, [Effect::Files(Task::Look(glance.clone()))]);
-        bench.news(News::Seen { glance, result: Ok(seen(&LoadOptions::default())) });
+        bench.news(News::Seen { glance, result: Ok(seen(&LoadOptions::default())), lines: Vec::new() });
         assert_snapshot!(format!("picker_{label}"), bench.frame());
     }
 }
@@ -188,7 +188,7 @@ fn why_a_file_cannot_be_opened_is_said_once() {
     let mut bench = picker(Glyphs::Unicode);
     bench.key(KeyCode::Down);
     let wrong = || Error::input(DEMO, "no rows", "name a file with rows");
-    bench.news(News::Seen { glance: Glance::file(DEMO.into()), result: Err(wrong()) });
+    bench.news(News::Seen { glance: Glance::file(DEMO.into()), result: Err(wrong()), lines: Vec::new() });
     let said = |bench: &Bench| bench.frame().matches("no rows; name a file").count();
     assert_eq!(said(&bench), 1, "before anything is pressed\n{}", bench.frame());
     bench.key(KeyCode::Enter);
@@ -260,7 +260,7 @@ fn the_loader_shows_what_its_options_make_of_the_record() {
         let told = LoadOptions { time: Some("t_s".into()), ..LoadOptions::default() };
         let glance = Glance { source: Source::demo(), options: told.clone() };
         assert_eq!(effects, [Effect::Files(Task::Look(glance.clone()))]);
-        bench.news(News::Seen { glance, result: Ok(seen(&told)) });
+        bench.news(News::Seen { glance, result: Ok(seen(&told)), lines: Vec::new() });
         assert_snapshot!(format!("loader_{label}"), bench.frame());
     }
 }
@@ -271,7 +271,7 @@ fn every_field_of_the_loader_can_be_reached_at_the_least_size() {
     bench.command("loader");
     let told = LoadOptions { time: Some("t_s".into()), ..LoadOptions::default() };
     let glance = Glance { source: Source::demo(), options: told.clone() };
-    bench.news(News::Seen { glance, result: Ok(seen(&told)) });
+    bench.news(News::Seen { glance, result: Ok(seen(&told)), lines: Vec::new() });
     for field in wildpoint::tui::update::FIELDS {
         let frame = bench.frame();
         assert!(frame.contains(&format!("> {}", field.name)) && frame.contains("Enter loads it so"), "{frame}");
@@ -286,7 +286,7 @@ fn track_and_encoding_are_told_and_go_into_the_session() {
     bench.command("loader");
     let told = LoadOptions { time: Some("t_s".into()), ..LoadOptions::default() };
     let glance = Glance { source: Source::demo(), options: told.clone() };
-    bench.news(News::Seen { glance, result: Ok(seen(&told)) });
+    bench.news(News::Seen { glance, result: Ok(seen(&told)), lines: Vec::new() });
     (0..3).for_each(|_| drop(bench.key(KeyCode::Down)));
     bench.typed("ealt_m");
     let options = LoadOptions { track: Some("alt_m".into()), ..told };
@@ -314,16 +314,16 @@ fn a_changed_option_is_looked_at_and_taken_with_enter() {
     bench.command("loader");
     let told = LoadOptions { time: Some("t_s".into()), ..LoadOptions::default() };
     let old = Glance { source: Source::demo(), options: told.clone() };
-    bench.news(News::Seen { glance: old.clone(), result: Ok(seen(&told)) });
+    bench.news(News::Seen { glance: old.clone(), result: Ok(seen(&told)), lines: Vec::new() });
     // From t_s on to the next column.
     let options = LoadOptions { time: Some("vx_mps".into()), ..LoadOptions::default() };
     let glance = Glance { source: Source::demo(), options: options.clone() };
     assert_eq!(bench.key(KeyCode::Right), [Effect::Files(Task::Look(glance.clone()))]);
     // What the options before made of it comes late: it is not shown for these.
-    bench.news(News::Seen { glance: old, result: Err(Error::input("x", "late", "never mind")) });
+    bench.news(News::Seen { glance: old, result: Err(Error::input("x", "late", "never mind")), lines: Vec::new() });
     assert!(!bench.frame().contains("late") && bench.frame().contains("looking"));
     let e = Error::input("demo", "these are no times", "choose another column");
-    bench.news(News::Seen { glance, result: Err(e) });
+    bench.news(News::Seen { glance, result: Err(e), lines: Vec::new() });
     assert!(bench.frame().contains("these are no times; choose another column"), "{}", bench.frame());
     // Missing markers are typed.
     (0..5).for_each(|_| drop(bench.key(KeyCode::Down)));
@@ -432,10 +432,18 @@ fn dialogs_are_drawn_at_any_size_and_in_ascii() {
     for size in [(40, 10), (60, 16), (80, 24), (200, 60)] {
         let mut ascii = picker(Glyphs::Ascii).size(size);
         ascii.key(KeyCode::Down);
-        ascii.news(News::Seen { glance: Glance::file(DEMO.into()), result: Ok(seen(&LoadOptions::default())) });
+        ascii.news(News::Seen {
+            glance: Glance::file(DEMO.into()),
+            result: Ok(seen(&LoadOptions::default())),
+            lines: Vec::new(),
+        });
         let mut frames = vec![ascii.frame()];
         ascii.key(KeyCode::Tab);
-        ascii.news(News::Seen { glance: Glance::file(DEMO.into()), result: Ok(seen(&LoadOptions::default())) });
+        ascii.news(News::Seen {
+            glance: Glance::file(DEMO.into()),
+            result: Ok(seen(&LoadOptions::default())),
+            lines: Vec::new(),
+        });
         (0..10).for_each(|_| drop(ascii.key(KeyCode::Down)));
         assert!(
             ascii.frame().contains("> order of dates"),

@@ -81,10 +81,10 @@ impl TimeTicks {
             time.origin_ns as f64 / 1e9
         };
         let unit = match time.format {
-            TimeFormat::Iso | TimeFormat::YearLast { .. } | TimeFormat::Epoch { .. } => "UTC",
+            _ if calendar => "UTC",
             TimeFormat::Seconds => "s",
             TimeFormat::SampleNumber => "sample",
-            TimeFormat::Elapsed { .. } | TimeFormat::Clock => "",
+            _ => "",
         };
         let label_width = u16::try_from(label_width).unwrap_or(12);
         Self { steps, phase, label_width, unit, digits, dated: step >= DAY / 2.0 }

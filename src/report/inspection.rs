@@ -9,7 +9,7 @@ use crate::method::shared::MAX_GAP;
 use crate::param::Value;
 use crate::session::{Remedy, Suggestion, suggestions};
 use crate::stop::{Stop, Stopped};
-use crate::track::{Delimiter, Encoding, FaultKind, Faults, Track, printable, without_signed_zero};
+use crate::track::{ColumnKind, Delimiter, Encoding, FaultKind, Faults, Track, printable, without_signed_zero};
 
 /// The facts of a file.
 #[derive(Debug, Clone, Serialize)]
@@ -53,6 +53,9 @@ pub struct ColumnFacts {
     pub unit: String,
     /// Cells without a value.
     pub missing: usize,
+    /// Why it is no channel, for a column of numbers that is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why: Option<&'static str>,
 }
 
 /// The facts of a channel.
@@ -134,6 +137,10 @@ impl Inspection {
                     kind: c.kind.word(),
                     unit: c.unit.clone(),
                     missing: c.missing,
+                    why: match c.kind {
+                        ColumnKind::Aside(aside) => Some(aside.why()),
+                        _ => None,
+                    },
                 })
                 .collect(),
             time: track.time.name.clone(),
@@ -179,10 +186,11 @@ impl Inspection {
 
     fn columns_text(&self, out: &mut String) {
         let width = self.columns.iter().map(|c| printable(&c.name).chars().count()).max().unwrap_or(0).clamp(6, 32);
-        let _ = writeln!(out, "\n  {:>3}  {:width$}  {:6}  {:10}  {:>8}", "#", "column", "kind", "unit", "missing");
+        let _ = writeln!(out, "\n  {:>3}  {:width$}  {:8}  {:10}  {:>8}", "#", "column", "kind", "unit", "missing");
         for c in &self.columns {
             let (name, unit) = (printable(&c.name), printable(&c.unit));
-            let _ = writeln!(out, "  {:>3}  {name:width$}  {:6}  {unit:10}  {:>8}", c.number, c.kind, c.missing);
+            let why = c.why.map_or(String::new(), |why| format!("  no channel: {why}"));
+            let _ = writeln!(out, "  {:>3}  {name:width$}  {:8}  {unit:10}  {:>8}{why}", c.number, c.kind, c.missing);
         }
     }
 
@@ -297,6 +305,12 @@ pub fn layout(track: &Track) -> String {
         Encoding::Latin1 => "Windows-1252",
     };
     let mut words = vec![format!("cells between {delimiter}"), encoding.to_owned()];
+    if d.preamble > 1 + usize::from(d.units_row) {
+        words.push(format!(
+            "{} lines of text above the rows",
+            d.preamble - usize::from(d.header) - usize::from(d.units_row)
+        ));
+    }
     words.push(if d.header { "header" } else { "no header" }.to_owned());
     for (yes, word) in [(d.units_row, "units row"), (d.decimal_comma, "decimal comma"), (d.gzip, "gzip")] {
         if yes {

@@ -98,7 +98,11 @@ impl Layout {
     fn told(track: Track, format: FormatArg, names: Vec<String>, options: &LoadOptions) -> Result<Self> {
         let others = track.channels.len().saturating_sub(1);
         // A file can be looked at first; a stream would be judged by the wrong column all along.
-        if track.time.column.is_none() && options.time.is_none() && others > 0 {
+        // That a first column without a name is the time can be seen in a file, not in its first rows.
+        let counts =
+            matches!(track.time.format, TimeFormat::Seconds | TimeFormat::Elapsed { .. } | TimeFormat::Epoch { .. });
+        let guessed = counts && !track.dialect.header;
+        if options.time.is_none() && (guessed || (track.time.column.is_none() && others > 0)) {
             let names: Vec<&str> = track.columns.iter().map(|c| c.name.as_str()).collect();
             return Err(Error::usage(
                 "which column of the stream is the time?",

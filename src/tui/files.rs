@@ -13,7 +13,7 @@ use super::model::Model;
 use crate::error::Result;
 use crate::job::Worker;
 use crate::stop::Stop;
-use crate::track::{LoadOptions, Source};
+use crate::track::{FileLine, LoadOptions, Source, first_lines};
 
 mod complete;
 mod listing;
@@ -92,6 +92,8 @@ pub enum News {
         glance: Glance,
         /// What was seen.
         result: Result<Seen>,
+        /// The first lines of the file.
+        lines: Vec<FileLine>,
     },
     /// A record is loaded, with all that the screen needs of it.
     Opened {
@@ -110,6 +112,9 @@ pub enum News {
         completed: String,
     },
 }
+
+/// First lines of a file that are shown.
+const LINES: usize = 9;
 
 /// Sessions are told from records by their name.
 #[must_use]
@@ -133,8 +138,10 @@ impl Desk {
         let sender = results.clone();
         let looker = Worker::new(move |_, glance: Glance, stop: &Stop| {
             let result = glance.look(stop);
+            let at = result.as_ref().ok().and_then(|seen| seen.rows_at.as_ref());
+            let lines = first_lines(&glance.source, at, LINES);
             // Nobody listens any more when the program is about to end.
-            let _ = sender.send(Message::Files(News::Seen { glance, result }));
+            let _ = sender.send(Message::Files(News::Seen { glance, result, lines }));
         });
         let recent = journal.and_then(Path::parent).map(|state| state.join("recent"));
         Self { looker, results, awaited: Arc::default(), recent }

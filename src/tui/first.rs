@@ -63,7 +63,9 @@ mod tests {
     fn an_id_is_not_what_one_looks_at_and_is_named_where_times_are_out_of_order() {
         // Two beacons answer in turn, and one of them late.
         let text = "t_s,beacon,range_m\n0,1,5.0\n1,2,7.0\n2,1,5.1\n1.5,2,7.1\n4,1,5.2\n5,2,7.2\n6,1,5.3\n7,2,7.3\n8,1,5\n9,2,7\n10,1,5\n";
-        let (track, session) = loaded(text, &LoadOptions::default());
+        // By the first rules tracks are told, not recognised.
+        let first = LoadOptions { rules: crate::track::Rules::First, ..LoadOptions::default() };
+        let (track, session) = loaded(text, &first);
         assert_eq!(session.plans[plan(&session)].channel, "range_m");
         assert_eq!(
             notes(&track),

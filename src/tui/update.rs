@@ -37,6 +37,7 @@ mod rows;
 mod tune;
 
 pub use command::{COMMANDS, Command};
+pub(in crate::tui) use dialog::misread;
 pub use dialog::{FIELDS, Field};
 pub use files::default_session;
 use history::{commit, set_up};

@@ -8,7 +8,7 @@ use wildpoint::review::{Decision, Ruling};
 use wildpoint::session::{Analysed, Outcome, Preset, Session, Setup};
 use wildpoint::stop::Stop;
 use wildpoint::track::{
-    Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Faults, LoadOptions, Samples, Source, TimeAxis,
+    Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Faults, LoadOptions, RowsAt, Samples, Source, TimeAxis,
     TimeFormat, Track,
 };
 
@@ -170,6 +170,9 @@ pub(crate) fn made_of(seconds: Vec<f64>, channels: [(&str, Vec<f64>); 2]) -> Tra
             units_row: false,
             missing: Vec::new(),
             preamble: 1,
+            rows: RowsAt::default(),
+            styles: Vec::new(),
+            fixed_width: false,
         },
         rows: seconds.len(),
         columns: kinds.into_iter().map(|(name, kind)| column(name, kind)).collect(),
@@ -177,6 +180,9 @@ pub(crate) fn made_of(seconds: Vec<f64>, channels: [(&str, Vec<f64>); 2]) -> Tra
             name: "t".into(),
             column: Some(0),
             date_column: None,
+            part_columns: Vec::new(),
+            zone: None,
+            newest_first: false,
             format: TimeFormat::Seconds,
             origin_ns: 0,
             seconds,

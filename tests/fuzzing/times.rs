@@ -30,8 +30,17 @@ pub(super) fn body(data: &[u8]) {
         192..=223 => i128::from(i64::MIN),
         _ => i128::from(bytes.word() as i64),
     };
-    let axis =
-        TimeAxis { name: "t".into(), column: Some(0), date_column: None, format, origin_ns, seconds: Vec::new() };
+    let axis = TimeAxis {
+        name: "t".into(),
+        column: Some(0),
+        date_column: None,
+        part_columns: Vec::new(),
+        zone: None,
+        newest_first: false,
+        format,
+        origin_ns,
+        seconds: Vec::new(),
+    };
     let text = String::from_utf8_lossy(bytes.0);
     typed(&axis, &text);
     in_a_file(&text);

@@ -119,7 +119,7 @@ impl Bench {
     fn answer(&mut self, task: Task) {
         let news = match task {
             Task::List(folder) => News::Listed(Ok(Listing { folder, entries: entries(), file: None, note: None })),
-            Task::Look(glance) => News::Seen { result: glance.look(&Stop::never()), glance },
+            Task::Look(glance) => News::Seen { result: glance.look(&Stop::never()), glance, lines: Vec::new() },
             Task::Check(paths) => News::Checked(paths.into_iter().map(|path| (path, false)).collect()),
             other => panic!("{other:?} is nothing for a still frame"),
         };

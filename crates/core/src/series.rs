@@ -31,8 +31,14 @@ impl<'a> Series<'a> {
     /// the record, `values` one for each of `rows`.
     #[must_use]
     pub fn of_rows(rows: &[u32], seconds: &[f64], values: &[f64]) -> Self {
+        Self::of_pairs(rows.iter().copied().zip(values.iter().copied()), seconds)
+    }
+
+    /// The same of rows with their values, in the order of their times.
+    #[must_use]
+    pub fn of_pairs(pairs: impl Iterator<Item = (u32, f64)>, seconds: &[f64]) -> Self {
         let (mut kept, mut t, mut y) = (Vec::new(), Vec::new(), Vec::new());
-        for (&row, &value) in rows.iter().zip(values) {
+        for (row, value) in pairs {
             let time = seconds.get(row as usize).copied().unwrap_or(f64::NAN);
             if time.is_finite() && value.is_finite() {
                 kept.push(row);
@@ -160,7 +166,13 @@ impl<'a> Series<'a> {
     pub fn position(&self, row: usize) -> Option<usize> {
         match &self.rows {
             None => (row < self.len()).then_some(row),
-            Some(rows) => u32::try_from(row).ok().and_then(|row| rows.binary_search(&row).ok()),
+            Some(rows) => {
+                let row = u32::try_from(row).ok()?;
+                // The newest row may stand first.
+                let newest_first = rows.first() > rows.last();
+                let order = |r: &u32| if newest_first { row.cmp(r) } else { r.cmp(&row) };
+                rows.binary_search_by(order).ok()
+            }
         }
     }
 

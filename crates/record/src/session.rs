@@ -99,9 +99,17 @@ impl Session {
     pub fn new(track: &Track, mut options: LoadOptions, setup: &Setup) -> Self {
         // What was recognised is recorded, so that a later version recognises nothing else.
         options.time.get_or_insert_with(|| match track.time.column {
+            Some(_) if !track.time.part_columns.is_empty() => {
+                let names: Vec<&str> =
+                    track.time.part_columns.iter().map(|c| track.columns[*c].name.as_str()).collect();
+                names.join(",")
+            }
             Some(column) => track.columns[column].name.clone(),
             None => "sample".into(),
         });
+        if let Some(column) = track.track_column() {
+            options.track.get_or_insert_with(|| track.columns[column].name.clone());
+        }
         let plan = |name: &str| Plan { channel: name.into(), setup: setup.clone(), decisions: Decisions::default() };
         Self {
             data: Data {

@@ -17,12 +17,16 @@ mod checks;
 mod chunk;
 mod extent;
 mod feed;
+mod formats;
 mod head;
 mod inert;
+mod lines;
 mod load;
+mod mend;
 mod names;
 mod notes;
 mod number;
+mod odd;
 mod options;
 mod order;
 mod outputs;
@@ -39,8 +43,11 @@ mod spool;
 mod stamp;
 mod standing;
 mod streamed;
+mod style;
+mod table;
 mod targets;
 mod text;
+mod time;
 mod timing;
 mod tokens;
 mod told;
@@ -52,11 +59,13 @@ pub use calendar::{DAY as NANOSECONDS_PER_DAY, SECONDS_PER_DAY};
 pub use cells::Cells;
 pub use checks::RowChecks;
 pub use extent::Extent;
+pub use formats::{FORMATS, Format, format_of};
 pub use inert::inert;
+pub use lines::{FileLine, LinePart, first_lines};
 pub use load::{load, load_extent, load_while};
 pub use names::is_id;
 pub use number::{Cell, Reading, number_text, without_signed_zero};
-pub use options::LoadOptions;
+pub use options::{LoadOptions, Rules};
 #[cfg(any(test, feature = "faults"))]
 pub use outputs::faults;
 pub use outputs::{Outputs, take_unfinished_away};
@@ -67,8 +76,10 @@ pub use rows::for_each_row;
 pub use samples::Samples;
 pub use spool::{DASH, Spool};
 pub use standing::{Lost, Standing, covered};
+pub use style::Style;
 pub use targets::Target;
 pub use text::hex;
+pub use time::{DateOrder, Part, Pattern, Zero, Zone};
 pub use told::{TimeUnit, Worded};
 pub use wanted::Wanted;
 pub use widen::{NewColumn, widen};
@@ -142,6 +153,29 @@ pub struct Dialect {
     pub missing: Vec<String>,
     /// Lines before the first data row that are neither comments nor blank: titles, header, units.
     pub preamble: usize,
+    /// Where the rows stand, and what stands among them without being one.
+    pub rows: RowsAt,
+    /// For each column, how its numbers are written; none where they are written as shortly as they can be.
+    pub styles: Vec<Option<Style>>,
+    /// True where every row has the same length, and cells stand below each other.
+    pub fixed_width: bool,
+}
+
+/// Where the rows of a table stand in the text.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct RowsAt {
+    /// Offset of the first row in the text after its byte order mark.
+    pub(crate) start: usize,
+    /// Its line, from 1.
+    pub(crate) line: u64,
+    /// Offset and length of the line of names, where there is one.
+    pub(crate) header: Option<(usize, usize)>,
+    /// Offset and length of the line of units.
+    pub(crate) units: Option<(usize, usize)>,
+    /// Lines that come again among the rows and are none: header and units.
+    pub(crate) repeats: Vec<Vec<u8>>,
+    /// What comments begin with, besides `#`, `%` and `//`.
+    pub(crate) mark: Option<tokens::Mark>,
 }
 
 /// What stands between two cells.
@@ -194,6 +228,8 @@ pub enum ColumnKind {
     Truth,
     /// The id of the track that the row belongs to.
     Track,
+    /// Numbers that are no measurement: an index, an id, a flag. A channel only if it is asked for.
+    Aside(Aside),
     /// Something else, kept in the output and otherwise left alone.
     Text,
     /// No cell holds a value.
@@ -209,8 +245,58 @@ impl ColumnKind {
             Self::Number => "number",
             Self::Truth => "truth",
             Self::Track => "track",
+            Self::Aside(aside) => aside.word(),
             Self::Text => "text",
             Self::Empty => "empty",
+        }
+    }
+}
+
+/// Why a column of numbers is no channel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Aside {
+    /// Another time than that of the rows, or a part of it.
+    Time,
+    /// The number of the row.
+    Index,
+    /// A number that counts up.
+    Counter,
+    /// It tells what the row is about.
+    Id,
+    /// Two values.
+    Flag,
+    /// Few whole values, under a name of quality.
+    Quality,
+    /// One value.
+    Constant,
+}
+
+impl Aside {
+    /// Its word for people.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Time => "time",
+            Self::Index => "index",
+            Self::Counter => "counter",
+            Self::Id => "id",
+            Self::Flag => "flag",
+            Self::Quality => "quality",
+            Self::Constant => "constant",
+        }
+    }
+
+    /// Why it is no channel, in words.
+    #[must_use]
+    pub fn why(self) -> &'static str {
+        match self {
+            Self::Time => "a time, or a part of one",
+            Self::Index => "it counts the rows",
+            Self::Counter => "it counts up",
+            Self::Id => "it tells what a row is about",
+            Self::Flag => "it holds two values",
+            Self::Quality => "it holds few values, under a name of quality",
+            Self::Constant => "it holds one value",
         }
     }
 }
@@ -239,6 +325,12 @@ pub struct TimeAxis {
     pub column: Option<usize>,
     /// Index of the column of the date, where date and time of day stand apart; `column` is then the time of day.
     pub date_column: Option<usize>,
+    /// Indices of the columns of [`TimeFormat::Parts`], in their order; `column` is then the finest.
+    pub part_columns: Vec<usize>,
+    /// The zone of clocks that write none; UTC without one.
+    pub zone: Option<Zone>,
+    /// True when the newest row stands first.
+    pub newest_first: bool,
     /// How the file writes times.
     pub format: TimeFormat,
     /// The time that is 0 in [`TimeAxis::seconds`], in nanoseconds: since 1970 for calendar formats, since the
@@ -275,6 +367,26 @@ pub enum TimeFormat {
     },
     /// A time of day: `17:57:05.25`. A step back of more than half a day is the next day.
     Clock,
+    /// A number of units of so many nanoseconds since a known moment: days of a spreadsheet, GPS seconds.
+    Since {
+        /// Nanoseconds in one unit.
+        unit_ns: i64,
+        /// The moment.
+        zero: Zero,
+    },
+    /// A year with decimals: `2010.0027`.
+    DecimalYear,
+    /// A date and time in another spelling: `04 Mar 2021 10:00`, `20210304T1000Z`.
+    Stamp {
+        /// How dates of short numbers are meant.
+        order: DateOrder,
+    },
+    /// As the user says.
+    Pattern(Pattern),
+    /// Time elapsed, with colons: `26:03:00`, `03:07.5`.
+    Duration,
+    /// Several columns together.
+    Parts(Vec<Part>),
 }
 
 /// Rows and cells that could not be used, counted, the first few with their line numbers.
@@ -293,6 +405,8 @@ pub struct Faults {
     pub ragged_rows: Fault,
     /// Numbers too large for a double, taken as missing.
     pub infinite_cells: Fault,
+    /// Rows whose time lies far from those around it, which go on without it.
+    pub wild_times: Fault,
 }
 
 impl Faults {
@@ -305,6 +419,7 @@ impl Faults {
             &self.unreadable_cells,
             &self.ragged_rows,
             &self.infinite_cells,
+            &self.wild_times,
         ];
         FAULT_KINDS.into_iter().zip(faults).filter(|(_, fault)| fault.count > 0)
     }
@@ -320,7 +435,7 @@ pub struct FaultKind {
 }
 
 /// In the order of the fields of [`Faults`].
-const FAULT_KINDS: [FaultKind; 6] = [
+const FAULT_KINDS: [FaultKind; 7] = [
     FaultKind { name: "repeated times", one: "repeated time", many: "repeated times" },
     FaultKind { name: "backward times", one: "time that goes back", many: "times that go back" },
     FaultKind { name: "unreadable times", one: "unreadable time", many: "unreadable times" },
@@ -335,6 +450,7 @@ const FAULT_KINDS: [FaultKind; 6] = [
         one: "number too large for a double",
         many: "numbers too large for a double",
     },
+    FaultKind { name: "wild times", one: "wild time", many: "wild times" },
 ];
 
 impl FaultKind {
@@ -380,6 +496,15 @@ impl TimeFormat {
             Self::YearLast { day_first: false } => "month/day/year".into(),
             Self::Iso => "ISO 8601".into(),
             Self::Clock => "time of day".into(),
+            Self::Since { unit_ns, zero } => format!("{} {}", TimeUnit { ns: *unit_ns }.name(), zero.words()),
+            Self::DecimalYear => "years with decimals".into(),
+            Self::Stamp { order: DateOrder::YearFirst } => "date and time".into(),
+            Self::Stamp { order: DateOrder::DayFirst } => "date and time, day first".into(),
+            Self::Stamp { order: DateOrder::MonthFirst } => "date and time, month first".into(),
+            Self::Pattern(pattern) => pattern.text().to_owned(),
+            Self::Duration => "time elapsed".into(),
+            Self::Parts(parts) if parts.len() > 1 => format!("{} columns together", parts.len()),
+            Self::Parts(_) => "time of day, in digits".into(),
         }
     }
 }

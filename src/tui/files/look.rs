@@ -7,7 +7,7 @@ use super::is_session;
 use crate::error::Result;
 use crate::session;
 use crate::stop::Stop;
-use crate::track::{ColumnKind, LoadOptions, Preview, Source, Track, Wanted, printable};
+use crate::track::{ColumnKind, LoadOptions, Preview, RowsAt, Source, Track, Wanted, printable};
 
 /// How much of a record is read.
 const MOST: u64 = 1 << 20;
@@ -32,6 +32,8 @@ pub struct Seen {
     pub columns: Vec<String>,
     /// The first rows: a head of names, one of what the columns are, then cells.
     pub table: Vec<Vec<String>>,
+    /// Where the rows of a record stand.
+    pub rows_at: Option<RowsAt>,
 }
 
 impl Glance {
@@ -106,7 +108,13 @@ fn of_record(preview: &Preview) -> Seen {
         track.columns.iter().map(|c| c.kind.word().to_owned()).collect(),
     ];
     table.extend(preview.first.iter().map(|row| row.iter().map(|cell| printable(cell)).collect()));
-    Seen { lines, warnings, columns: track.columns.iter().map(|c| c.name.clone()).collect(), table }
+    Seen {
+        lines,
+        warnings,
+        columns: track.columns.iter().map(|c| c.name.clone()).collect(),
+        table,
+        rows_at: Some(track.dialect.rows.clone()),
+    }
 }
 
 fn with_unit(channel: &crate::track::Channel) -> String {

@@ -6,7 +6,7 @@ use tui_input::Input;
 
 use super::super::files::{FileEntry, Request, Seen};
 use super::super::message::{Effect, OutputKind};
-use crate::track::{LoadOptions, Source};
+use crate::track::{FileLine, LoadOptions, Source};
 
 /// A dialog about files.
 #[derive(Debug)]
@@ -85,6 +85,8 @@ pub struct LoaderForm {
     pub stale: bool,
     /// Names of the columns, as last seen.
     pub columns: Vec<String>,
+    /// The first lines of the file.
+    pub lines: Vec<FileLine>,
     /// The dialog that it was opened from.
     pub back: Option<Box<Dialog>>,
 }

@@ -15,6 +15,7 @@ mod opening;
 
 pub(super) use browser::browse;
 pub(super) use export::{dialog as export_dialog, one as export_one};
+pub(in crate::tui) use loader::misread;
 pub use loader::{FIELDS, Field};
 pub(super) use loader::{change_key, correct};
 pub(super) use opening::open;
@@ -86,9 +87,9 @@ fn insert(input: Option<&mut Input>, text: &str) {
 pub(super) fn news(model: &mut Model, news: News) -> Vec<Effect> {
     match news {
         News::Listed(result) => browser::listed(model, result),
-        News::Seen { glance, result } => {
+        News::Seen { glance, result, lines } => {
             browser::seen(model, &glance, &result);
-            loader::seen(model, &glance, result);
+            loader::seen(model, &glance, result, lines);
             Vec::new()
         }
         News::Opened { ticket, result } => opening::opened(model, ticket, result),

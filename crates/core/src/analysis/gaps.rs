@@ -39,7 +39,13 @@ pub(super) fn gaps_to_fill(
             // Rows (of the target) after the present sample before the gap, up to the one after it.
             let (first, last) = (series.row(before - 1), series.row(before));
             let at = match own {
+                None if last < first => finder.places(first, ((last..first).rev(), first - last)),
                 None => finder.places(first, (first + 1..=last, last - first)),
+                Some(rows) if last < first => {
+                    let before = |row: usize| rows.partition_point(|r| (*r as usize) < row);
+                    let between = &rows[before(last)..before(first)];
+                    finder.places(first, (between.iter().rev().map(|r| *r as usize), between.len()))
+                }
                 Some(rows) => {
                     let to = |row: usize| rows.partition_point(|r| *r as usize <= row);
                     let between = &rows[to(first)..to(last)];
@@ -57,10 +63,10 @@ pub(super) fn gaps_to_fill(
 /// The nominal interval of the rows that have a usable time.
 fn row_interval(seconds: &[f64], own: Option<&[u32]>) -> f64 {
     match own {
-        None => Series::new(seconds, seconds).interval,
+        None => Series::new(seconds, seconds).interval.abs(),
         Some(rows) => {
             let times: Vec<f64> = rows.iter().map(|r| seconds[*r as usize]).collect();
-            Series::new(&times, &times).interval
+            Series::new(&times, &times).interval.abs()
         }
     }
 }
@@ -91,7 +97,9 @@ impl Finder<'_> {
                 #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
                 at.extend((0..lost).map(|k| {
                     let part = (k + 1) as f64 / (lost + 1) as f64;
-                    (Place::NewRow(from, k), seconds[from] + step * part)
+                    // A later row stands before it in a file with the newest row first.
+                    let place = if row < from { Place::NewRow(row, lost - 1 - k) } else { Place::NewRow(from, k) };
+                    (place, seconds[from] + step * part)
                 }));
             }
             if place + 1 < count {

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::{DEFAULT_METHOD, Plan, Preparation, Preset, Session, Setup, suggested};
 use crate::param::Settings;
 use crate::repair;
-use crate::track::{LoadOptions, Source, Track, Worded, is_shown};
+use crate::track::{LoadOptions, Pattern, Rules, Source, Track, Worded, is_shown};
 
 /// The command for a POSIX shell that writes to `output` what `session` gives: `wildpoint clean` with what differs
 /// from the preset in force. None where no `clean` says the same, and only the saved session does: with decisions,
@@ -42,6 +42,8 @@ pub fn replay_command(session: &Path, output: &Path) -> String {
 fn loading(line: &mut String, options: &LoadOptions) -> Option<()> {
     let only_in_sessions =
         options.decimal_comma == Some(false) || options.header == Some(true) || options.quotes == Some(true);
+    // By other rules the command would understand another record.
+    let only_in_sessions = only_in_sessions || options.rules != Rules::default();
     if only_in_sessions {
         return None;
     }
@@ -66,6 +68,26 @@ fn loading(line: &mut String, options: &LoadOptions) -> Option<()> {
     ];
     for (name, _) in switches.into_iter().filter(|(_, on)| *on) {
         let _ = write!(line, " --{name}");
+    }
+    let numbers = [
+        ("header-line", options.header_line),
+        ("skip", options.skip),
+        ("units-line", options.units_line),
+        ("table", options.table),
+    ];
+    for (name, number) in numbers.into_iter().filter_map(|(name, number)| Some((name, number?))) {
+        let _ = write!(line, " --{name} {number}");
+    }
+    let texts = [
+        ("time-format", options.time_format.as_ref().map(Pattern::text)),
+        ("time-zone", options.time_zone.as_deref()),
+        ("comment", options.comment.as_deref()),
+    ];
+    for (name, text) in texts.into_iter().filter_map(|(name, text)| Some((name, text?))) {
+        option(line, name, text);
+    }
+    if !options.names.is_empty() {
+        option(line, "names", &options.names.join(","));
     }
     if let Some(day_first) = options.day_first {
         option(line, "dates", if day_first { "day-first" } else { "month-first" });

@@ -2,7 +2,8 @@
 
 use super::calendar::{DAY, Date, SECOND};
 use super::stamp::{self, Count};
-use super::{TimeAxis, TimeFormat};
+use super::timing::Timing;
+use super::{DateOrder, Part, TimeAxis, TimeFormat};
 
 /// More decimals than nanoseconds have are never written.
 const MOST_DECIMALS: usize = 9;
@@ -15,6 +16,8 @@ impl TimeAxis {
         let Some(ns) = self.ns_at(seconds) else { return String::new() };
         match self.number_unit() {
             Some(unit) => fixed(ns, unit, digits),
+            // Hours go on beyond 24 where the file counts them so.
+            None if self.format == TimeFormat::Duration => clock_text(rounded(ns, digits).max(0), digits, true, true),
             None => clock_text(rounded(ns, digits).rem_euclid(i128::from(DAY)), digits, true, true),
         }
     }
@@ -68,6 +71,13 @@ impl TimeAxis {
             #[expect(clippy::cast_precision_loss, reason = "a typed number with an exponent or ten decimals")]
             Count::Inexact(value) => Some((value * unit as f64 - self.origin_ns as f64) / SECOND as f64),
         };
+        let read = || {
+            let timing = Timing { zone: self.zone.clone(), ..Timing::of(0, None, self.format.clone()) };
+            match timing.read(|_| bytes, false)? {
+                Count::Exact(ns) => Some(self.seconds_at(i128::from(ns))),
+                Count::Inexact(_) => None,
+            }
+        };
         let calendar = || {
             let stamp = match self.format {
                 TimeFormat::YearLast { day_first } => stamp::year_last(bytes, day_first),
@@ -81,6 +91,13 @@ impl TimeAxis {
             TimeFormat::Elapsed { unit_ns } => number(unit_ns),
             TimeFormat::Epoch { unit_ns } => calendar().or_else(|| number(unit_ns)),
             TimeFormat::Iso | TimeFormat::YearLast { .. } => calendar(),
+            TimeFormat::Since { .. } | TimeFormat::DecimalYear | TimeFormat::Stamp { .. } | TimeFormat::Pattern(_) => {
+                // The number of the file before a date of which nobody thinks.
+                read().or_else(calendar)
+            }
+            TimeFormat::Duration => super::timing::duration(bytes).map(|ns| self.seconds_at(i128::from(ns))),
+            TimeFormat::Parts(_) if self.is_calendar() => calendar(),
+            TimeFormat::Parts(_) => self.next_at(super::time::part_clock(bytes)?).map(|ns| self.seconds_at(ns)),
             TimeFormat::Clock => self.next_at(stamp::clock(bytes)?).map(|ns| self.seconds_at(ns)),
         }
     }
@@ -99,6 +116,9 @@ impl TimeAxis {
             return if sample.contains(',') { text.replace('.', ",") } else { text };
         }
         let bytes = sample.as_bytes();
+        if let Some(text) = self.written(ns, sample) {
+            return text;
+        }
         match self.format {
             TimeFormat::YearLast { day_first } if stamp::year_last_parts(bytes).is_some() => {
                 like_year_last(ns, sample, day_first)
@@ -108,12 +128,61 @@ impl TimeAxis {
         }
     }
 
+    /// The time of day of a cell of one of the columns of [`TimeFormat::Parts`], in the form of `sample`.
+    #[must_use]
+    pub fn write_part(&self, seconds: f64, place: usize, sample: &str) -> String {
+        let TimeFormat::Parts(parts) = &self.format else { return String::new() };
+        let ns = self.ns_at(seconds).and_then(|ns| i64::try_from(ns).ok());
+        let Some((part, ns)) = parts.get(place).zip(ns) else { return String::new() };
+        super::time::part_written(*part, parts, sample.trim(), self.local(ns))
+    }
+
+    /// The time in a form that says by its pieces how it is written.
+    fn written(&self, ns: i128, sample: &str) -> Option<String> {
+        let ns = i64::try_from(ns).ok()?;
+        let bytes = sample.as_bytes();
+        let pieces = match &self.format {
+            TimeFormat::Stamp { order } => super::time::fields(bytes, *order)?,
+            TimeFormat::Pattern(pattern) => pattern.fields(bytes)?,
+            TimeFormat::Duration => super::time::fields(bytes, DateOrder::YearFirst)?,
+            TimeFormat::Iso | TimeFormat::YearLast { .. } if self.zone.is_some() => {
+                let first = matches!(self.format, TimeFormat::YearLast { day_first: true });
+                super::time::fields(bytes, if first { DateOrder::DayFirst } else { DateOrder::MonthFirst })?
+            }
+            TimeFormat::Since { unit_ns, zero } => {
+                let decimals = sample.find(['.', ',']).map_or(0, |at| sample.len() - at - 1);
+                let text = fixed(i128::from(ns) - i128::from(zero.seconds()) * i128::from(SECOND), *unit_ns, decimals);
+                return Some(if sample.contains(',') { text.replace('.', ",") } else { text });
+            }
+            TimeFormat::DecimalYear => return decimal_year(ns, sample),
+            _ => return None,
+        };
+        let told = pieces.told(bytes)?;
+        let local = match told.offset {
+            Some(offset) => ns.checked_add(offset)?,
+            None => self.local(ns),
+        };
+        let step = pieces.step();
+        let local = local.checked_add(step / 2)?.div_euclid(step).checked_mul(step)?;
+        let dated = told.days.is_some();
+        Some(if dated {
+            pieces.written(sample, Some(local.div_euclid(DAY)), local.rem_euclid(DAY))
+        } else {
+            pieces.written(sample, None, local)
+        })
+    }
+
+    /// What clocks of the file show at a moment.
+    fn local(&self, ns: i64) -> i64 {
+        self.zone.as_ref().map_or(ns, |zone| zone.local(ns))
+    }
+
     /// Nanoseconds in one unit, where the file writes times as numbers.
     fn count_unit(&self) -> Option<i64> {
         match self.format {
             TimeFormat::SampleNumber | TimeFormat::Seconds => Some(SECOND),
             TimeFormat::Elapsed { unit_ns } | TimeFormat::Epoch { unit_ns } => Some(unit_ns),
-            TimeFormat::Iso | TimeFormat::YearLast { .. } | TimeFormat::Clock => None,
+            _ => None,
         }
     }
 
@@ -122,8 +191,28 @@ impl TimeAxis {
         self.count_unit().filter(|_| !self.is_calendar())
     }
 
-    fn is_calendar(&self) -> bool {
-        matches!(self.format, TimeFormat::Epoch { .. } | TimeFormat::Iso | TimeFormat::YearLast { .. })
+    /// True where the times are those of a calendar.
+    #[must_use]
+    pub fn is_calendar(&self) -> bool {
+        match &self.format {
+            TimeFormat::Epoch { .. }
+            | TimeFormat::Iso
+            | TimeFormat::YearLast { .. }
+            | TimeFormat::Since { .. }
+            | TimeFormat::DecimalYear
+            | TimeFormat::Stamp { .. } => true,
+            TimeFormat::Pattern(pattern) => pattern.has_date(),
+            // Seconds that are those since 1970 are a date, and others are counted from a zero of the file's own.
+            TimeFormat::Parts(parts) if parts.contains(&Part::Seconds) => {
+                self.origin_ns > 315_532_800 * i128::from(SECOND)
+            }
+            TimeFormat::Parts(parts) => parts.iter().any(|p| p.dates()),
+            TimeFormat::SampleNumber
+            | TimeFormat::Seconds
+            | TimeFormat::Elapsed { .. }
+            | TimeFormat::Clock
+            | TimeFormat::Duration => false,
+        }
     }
 
     fn ns_at(&self, seconds: f64) -> Option<i128> {
@@ -181,6 +270,19 @@ fn fixed(ns: i128, unit: i64, digits: usize) -> String {
     let sign = if scaled < 0 { "-" } else { "" };
     let (whole, part) = (scaled.unsigned_abs() / power.unsigned_abs(), scaled.unsigned_abs() % power.unsigned_abs());
     if digits == 0 { format!("{sign}{whole}") } else { format!("{sign}{whole}.{part:0digits$}") }
+}
+
+/// A year with as many decimals as `sample` has.
+fn decimal_year(ns: i64, sample: &str) -> Option<String> {
+    let date = date_of(i128::from(ns))?;
+    let start = |year| Date { year, month: 1, day: 1 }.days();
+    let (from, to) = (start(date.year)?, start(date.year + 1)?);
+    #[expect(clippy::cast_precision_loss, reason = "a year of nanoseconds")]
+    let part = (ns - from * DAY) as f64 / ((to - from) * DAY) as f64;
+    let decimals = sample.find(['.', ',']).map_or(0, |at| sample.len() - at - 1);
+    #[expect(clippy::cast_precision_loss, reason = "a year")]
+    let text = format!("{:.decimals$}", date.year as f64 + part);
+    Some(if sample.contains(',') { text.replace('.', ",") } else { text })
 }
 
 fn date_of(ns: i128) -> Option<Date> {
@@ -289,7 +391,17 @@ mod tests {
     use super::*;
 
     fn axis(format: TimeFormat, origin_ns: i128) -> TimeAxis {
-        TimeAxis { name: "time".into(), column: Some(0), date_column: None, format, origin_ns, seconds: Vec::new() }
+        TimeAxis {
+            name: "time".into(),
+            column: Some(0),
+            date_column: None,
+            part_columns: Vec::new(),
+            zone: None,
+            newest_first: false,
+            format,
+            origin_ns,
+            seconds: Vec::new(),
+        }
     }
 
     /// 2019-11-11T17:57:05Z.

@@ -1,6 +1,7 @@
 //! Columns of numbers, of a chunk of rows and of the whole.
 
 use super::number::Reading;
+use super::odd::Oddity;
 use super::order::UNREADABLE;
 use super::timing::Timing;
 use super::tokens::Layout;
@@ -20,6 +21,16 @@ pub(crate) struct Plan<'a> {
     pub(crate) timing: Option<Timing>,
     /// Mean length of a record in bytes, for the size of buffers.
     pub(crate) record_bytes: usize,
+    /// Lines that come again among the rows and are none.
+    pub(crate) repeats: &'a [Vec<u8>],
+    /// For each column, which oddities its cells may have.
+    pub(crate) oddities: &'a [Vec<Oddity>],
+    /// For each column, whether TRUE and FALSE are 1 and 0.
+    pub(crate) truths: Vec<bool>,
+    /// For each column, texts that stand where its numbers have not begun.
+    pub(crate) late: &'a [Vec<String>],
+    /// Whether texts below the last row are no rows.
+    pub(crate) footer: bool,
 }
 
 /// The numbers of one column.
@@ -30,6 +41,44 @@ pub(crate) struct Numbers {
     pub(crate) present: usize,
     pub(crate) unreadable: Fault,
     pub(crate) infinite: Fault,
+    /// Cells with a text where the numbers have not begun.
+    pub(crate) late: usize,
+    /// Numbers in cells that hold more, by oddity.
+    pub(crate) odd: [usize; Oddity::ALL.len()],
+}
+
+/// Rows at the end that are data only if more follows: of nothing but empty cells, or of text where others have numbers.
+#[derive(Debug, Default)]
+pub(crate) struct Tail {
+    pub(crate) rows: usize,
+    /// How many of them hold text.
+    pub(crate) texts: usize,
+    /// Cells without a value, by column.
+    pub(crate) missing: Vec<usize>,
+    /// By slot.
+    pub(crate) unreadable: Vec<Fault>,
+    pub(crate) ragged: Fault,
+}
+
+impl Tail {
+    /// Adds what comes after it, whose lines count from its own start.
+    fn add(&mut self, other: &Self, lines_before: u64) {
+        self.rows += other.rows;
+        self.texts += other.texts;
+        add_counts(&mut self.missing, &other.missing);
+        add_faults(&mut self.unreadable, &other.unreadable, lines_before);
+        add_fault(&mut self.ragged, &other.ragged, lines_before);
+    }
+}
+
+fn add_counts(to: &mut Vec<usize>, from: &[usize]) {
+    to.resize(to.len().max(from.len()), 0);
+    to.iter_mut().zip(from).for_each(|(to, from)| *to += from);
+}
+
+fn add_faults(to: &mut Vec<Fault>, from: &[Fault], lines_before: u64) {
+    to.resize_with(to.len().max(from.len()), Fault::default);
+    to.iter_mut().zip(from).for_each(|(to, from)| add_fault(to, from, lines_before));
 }
 
 /// Rows of a file, or of a chunk of it.
@@ -45,8 +94,10 @@ pub(crate) struct Body {
     /// Cells without a value, by column.
     pub(crate) missing: Vec<usize>,
     pub(crate) ragged: Fault,
-    /// Rows of nothing but empty cells at the end: data only if more follows.
-    pub(crate) empty_tail: usize,
+    /// Rows at the end that may be none.
+    pub(crate) tail: Tail,
+    /// Header and units that came again.
+    pub(crate) repeats: usize,
     /// Lines of the chunk.
     pub(crate) lines: u64,
     /// The memory of the columns.
@@ -55,6 +106,34 @@ pub(crate) struct Body {
 
 /// Bytes of each row that are left free for whatever is done with the record next: looking at its noise, say.
 const AFTERWARDS: u64 = 32;
+
+impl Plan<'_> {
+    /// The number in a cell of `column` that holds more than a bare one, with what it holds (nothing said of a truth).
+    pub(crate) fn other_number(&self, column: usize, cell: &[u8]) -> Option<(f64, Option<Oddity>)> {
+        if self.truths.get(column) == Some(&true) {
+            return truth(cell).map(|t| (f64::from(u8::from(t)), None));
+        }
+        let allowed = self.oddities.get(column).filter(|o| !o.is_empty())?;
+        let odd = super::odd::odd(cell, self.reading.decimal_comma).filter(|odd| allowed.contains(&odd.oddity))?;
+        (!self.reading.is_missing(odd.value)).then_some((odd.value, Some(odd.oddity)))
+    }
+}
+
+impl Plan<'_> {
+    /// True for a text that stands where the numbers of the column have not begun.
+    pub(crate) fn is_late(&self, column: usize, cell: &[u8]) -> bool {
+        self.late.get(column).is_some_and(|texts| texts.iter().any(|t| t.as_bytes() == cell))
+    }
+}
+
+/// What a word says: TRUE, yes and T, or their opposites.
+pub(crate) fn truth(cell: &[u8]) -> Option<bool> {
+    match cell.to_ascii_lowercase().as_slice() {
+        b"true" | b"t" | b"yes" | b"y" | b"wahr" | b"vrai" => Some(true),
+        b"false" | b"f" | b"no" | b"n" | b"falsch" | b"faux" => Some(false),
+        _ => None,
+    }
+}
 
 impl Body {
     /// Nothing yet, with room for so many rows.
@@ -100,15 +179,34 @@ impl Body {
         };
     }
 
-    /// The empty rows met so far are rows after all, because another follows.
-    pub(crate) fn fill_empty_tail(&mut self) {
-        let count = std::mem::take(&mut self.empty_tail);
-        if count > 0 {
-            self.rows += count;
-            self.missing.iter_mut().for_each(|m| *m += count);
-            self.numbers.iter_mut().for_each(|n| n.values.resize(n.values.len() + count, f64::NAN));
-            self.moments.iter_mut().for_each(|m| m.resize(m.len() + count, UNREADABLE));
+    /// An empty row, which is one if more follows.
+    pub(crate) fn empty_row(&mut self) {
+        self.tail.rows += 1;
+        let columns = self.missing.len();
+        self.tail.missing.resize(columns, 0);
+        self.tail.missing.iter_mut().for_each(|m| *m += 1);
+    }
+
+    /// The doubtful rows met so far are rows after all, because another follows.
+    #[inline]
+    pub(crate) fn fill_tail(&mut self) {
+        if self.tail.rows > 0 {
+            self.take_tail();
         }
+    }
+
+    #[cold]
+    fn take_tail(&mut self) {
+        let tail = std::mem::take(&mut self.tail);
+        let count = tail.rows;
+        self.rows += count;
+        add_counts(&mut self.missing, &tail.missing);
+        add_fault(&mut self.ragged, &tail.ragged, 0);
+        for (numbers, fault) in self.numbers.iter_mut().zip(&tail.unreadable) {
+            add_fault(&mut numbers.unreadable, fault, 0);
+        }
+        self.numbers.iter_mut().for_each(|n| n.values.resize(n.values.len() + count, f64::NAN));
+        self.moments.iter_mut().for_each(|m| m.resize(m.len() + count, UNREADABLE));
     }
 }
 
@@ -131,7 +229,7 @@ impl Whole {
     /// # Errors
     /// [`Full`] when there is no room for their rows.
     pub(crate) fn add(&mut self, parts: &mut [Body]) -> Result<(), Full> {
-        let rows: usize = parts.iter().map(|p| p.rows + p.empty_tail).sum::<usize>() + self.body.empty_tail;
+        let rows: usize = parts.iter().map(|p| p.rows + p.tail.rows).sum::<usize>() + self.body.tail.rows;
         self.body.share.set(self.body.bytes(self.body.rows + rows))?;
         for part in parts {
             self.add_one(part);
@@ -143,19 +241,24 @@ impl Whole {
     fn add_one(&mut self, part: &mut Body) {
         let body = &mut self.body;
         if part.rows > 0 {
-            body.fill_empty_tail();
+            body.fill_tail();
         }
         body.rows += part.rows;
         body.rounded += part.rounded;
-        body.empty_tail += part.empty_tail;
+        body.repeats += part.repeats;
+        let tail = std::mem::take(&mut part.tail);
+        let lines = self.lines;
         body.missing.iter_mut().zip(&part.missing).for_each(|(whole, part)| *whole += part);
         add_fault(&mut body.ragged, &part.ragged, self.lines);
         for (whole, part) in body.numbers.iter_mut().zip(&part.numbers) {
             whole.values.extend_from_slice(&part.values);
             whole.present += part.present;
+            whole.late += part.late;
             add_fault(&mut whole.unreadable, &part.unreadable, self.lines);
             add_fault(&mut whole.infinite, &part.infinite, self.lines);
+            whole.odd.iter_mut().zip(part.odd).for_each(|(whole, part)| *whole += part);
         }
+        body.tail.add(&tail, lines);
         if let (Some(whole), Some(part)) = (&mut body.moments, &part.moments) {
             whole.extend_from_slice(part);
         }
@@ -185,13 +288,18 @@ mod tests {
 
     fn plan(reading: &Reading) -> Plan<'_> {
         Plan {
-            layout: Layout { delimiter: Delimiter::Byte(b','), quote: None, line_end: b'\n' },
+            layout: Layout { delimiter: Delimiter::Byte(b','), quote: None, line_end: b'\n', mark: None },
             encoding: Encoding::Utf8 { bom: false },
             reading,
             slots: vec![None, Some(0), None],
             counts: [3, 3],
-            timing: Some(Timing { column: 0, date_column: None, format: TimeFormat::Seconds }),
+            timing: Some(Timing::of(0, None, TimeFormat::Seconds)),
             record_bytes: 8,
+            repeats: &[],
+            oddities: &[],
+            truths: Vec::new(),
+            late: &[],
+            footer: true,
         }
     }
 

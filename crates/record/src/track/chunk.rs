@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::Fault;
 use super::body::{Body, Plan};
 use super::number::Cell;
 use super::order::UNREADABLE;
@@ -61,7 +62,7 @@ impl<'a> Chunk<'a> {
     }
 
     fn quick_row(&mut self, row: &QuickRow) {
-        self.body.fill_empty_tail();
+        self.body.fill_tail();
         self.body.lines += 1;
         self.body.rows += 1;
         if let Some(moments) = &mut self.body.moments {
@@ -84,13 +85,62 @@ impl<'a> Chunk<'a> {
         if record.kind == RecordKind::Data {
             split(record.bytes, self.layout, spans);
             if is_empty(record.bytes, spans, self.layout) {
-                self.body.empty_tail += 1;
+                self.body.empty_row();
+            } else if !self.plan.repeats.is_empty() && self.plan.repeats.iter().any(|r| r == record.bytes.trim_ascii())
+            {
+                self.body.repeats += 1;
+            } else if self.plan.footer && self.is_text(record.bytes, spans) {
+                self.text_row(line, record.bytes, spans);
             } else {
-                self.body.fill_empty_tail();
+                self.body.fill_tail();
                 self.row(line, record.bytes, spans);
             }
         }
         Ok(record.bytes.len() + record.end.len())
+    }
+
+    /// True for a line of text where other rows have a time and numbers.
+    fn is_text(&self, record: &[u8], spans: &[Span]) -> bool {
+        let cell = |column: usize| {
+            spans.get(column).map_or(&[][..], |s| &s.of(record)[inner(s.of(record), self.layout.quote)])
+        };
+        if let Some(timing) = &self.plan.timing
+            && timing.read(cell, self.plan.reading.decimal_comma).is_some()
+        {
+            return false;
+        }
+        let mut text = self.plan.timing.as_ref().is_some_and(|t| !self.plan.reading.is_marker(cell(t.column)));
+        for (column, _) in self.plan.slots.iter().enumerate().filter(|(_, slot)| slot.is_some()) {
+            match self.plan.reading.cell(cell(column)) {
+                Cell::Number(_) | Cell::Infinite => return false,
+                Cell::Text if self.plan.is_late(column, cell(column)) => {}
+                Cell::Text if self.plan.other_number(column, cell(column)).is_some() => return false,
+                Cell::Text => text = true,
+                Cell::Missing => {}
+            }
+        }
+        text
+    }
+
+    /// Keeps such a line in mind: it is a row if another follows.
+    fn text_row(&mut self, line: u64, record: &[u8], spans: &[Span]) {
+        let (plan, quote) = (self.plan, self.layout.quote);
+        let tail = &mut self.body.tail;
+        tail.rows += 1;
+        tail.texts += 1;
+        if !plan.counts.contains(&spans.len()) {
+            tail.ragged.add(line, &format!("{} cells", spans.len()));
+        }
+        tail.missing.resize(plan.slots.len(), 0);
+        tail.unreadable.resize_with(self.body.numbers.len(), Fault::default);
+        for (column, slot) in plan.slots.iter().enumerate() {
+            let cell = spans.get(column).map_or(&[][..], |s| &s.of(record)[inner(s.of(record), quote)]);
+            let marker = plan.reading.is_marker(cell);
+            tail.missing[column] += usize::from(slot.is_some() || marker);
+            if let (Some(slot), Cell::Text, false) = (slot, plan.reading.cell(cell), plan.is_late(column, cell)) {
+                tail.unreadable[*slot].add(line, &decoded(cell, plan.encoding));
+            }
+        }
     }
 
     fn row(&mut self, line: u64, record: &[u8], spans: &[Span]) {
@@ -108,8 +158,7 @@ impl<'a> Chunk<'a> {
             }
         };
         if let Some(timing) = &self.plan.timing {
-            let date = timing.date_column.map_or(&[][..], cell);
-            let moment = timing.read(cell(timing.column), date, self.plan.reading.decimal_comma);
+            let moment = timing.read(cell, self.plan.reading.decimal_comma);
             let ns = match moment {
                 Some(Count::Exact(ns)) => ns,
                 Some(Count::Inexact(seconds)) => {
@@ -139,7 +188,19 @@ impl<'a> Chunk<'a> {
                     self.body.missing[column] += 1;
                     match other {
                         Cell::Infinite => numbers.infinite.add(line, &decoded(cell, self.plan.encoding)),
-                        Cell::Text => numbers.unreadable.add(line, &decoded(cell, self.plan.encoding)),
+                        Cell::Text if self.plan.is_late(column, cell) => numbers.late += 1,
+                        Cell::Text => match self.plan.other_number(column, cell) {
+                            Some((value, oddity)) => {
+                                self.body.missing[column] -= 1;
+                                numbers.present += 1;
+                                if let Some(oddity) = oddity {
+                                    numbers.odd[oddity as usize] += 1;
+                                }
+                                numbers.values.push(value);
+                                continue;
+                            }
+                            None => numbers.unreadable.add(line, &decoded(cell, self.plan.encoding)),
+                        },
                         Cell::Missing | Cell::Number(_) => {}
                     }
                     f64::NAN

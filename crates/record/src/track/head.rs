@@ -2,22 +2,26 @@
 
 use std::path::Path;
 
-use super::cells::Cells;
 use super::number::Reading;
-use super::sniff::{Look, SAMPLE_BYTES, look, most_frequent, sniff};
+use super::odd::{Oddity, odd};
+use super::sniff::{SAMPLE_BYTES, sniff};
+use super::style::Style;
+use super::table::{Heading, Line, Lines, MOST_COLUMNS, NoTable, Table, heading, mark_of, tables, usual_width};
 use super::text::Text;
-use super::tokens::{Layout, OpenQuote, Record, RecordKind, Records, split};
-use super::{Delimiter, LoadOptions, names, printable};
+use super::tokens::{Layout, Mark, OpenQuote};
+use super::{LoadOptions, Rules, names, printable};
 use crate::error::{Error, Result};
 
 /// Rows that are looked at.
 const SAMPLE: usize = 200;
-/// Lines that may stand before the data, besides comments.
+/// Lines that may stand before the data, besides comments, where the first lines tell enough.
 const MOST_PREAMBLE: usize = 20;
-/// A row with more cells is no row of a table.
-const MOST_COLUMNS: usize = 100_000;
-/// Cells of a units row are shorter than this.
-const LONGEST_UNIT: usize = 16;
+/// Lines and bytes that are looked at where the first lines do not tell enough.
+const MOST_LINES: usize = 20_000;
+const MOST_BYTES: usize = 1 << 20;
+
+/// Offset and length of a line in the body.
+pub(crate) type Place = (usize, usize);
 
 /// What the first lines tell.
 #[derive(Debug)]
@@ -32,8 +36,10 @@ pub(crate) struct Head {
     pub(crate) header: bool,
     /// The line of the header, or of the first row.
     pub(crate) header_line: u64,
-    /// True when a units row follows the header.
-    pub(crate) units_row: bool,
+    /// Where the header stands, where there is one.
+    pub(crate) header_at: Option<Place>,
+    /// Where the units stand, where there are such.
+    pub(crate) units_at: Option<Place>,
     /// The names of the columns, unique.
     pub(crate) names: Vec<String>,
     /// Their units, or empty texts.
@@ -42,24 +48,26 @@ pub(crate) struct Head {
     pub(crate) counts: [usize; 2],
     /// Offset of the first data row in the body.
     pub(crate) data_start: usize,
+    /// Offset of what follows the last row, where that is known before all is read.
+    pub(crate) data_end: Option<usize>,
     /// Line of the first data row, from 1.
     pub(crate) data_line: u64,
+    /// Lines that come again among the rows and are none: header and units.
+    pub(crate) repeats: Vec<Vec<u8>>,
     /// The cells of the first rows.
     pub(crate) sample: Vec<Vec<String>>,
     /// Mean length of a record of the sample with its line end, in bytes.
     pub(crate) record_bytes: usize,
-}
-
-struct Line {
-    number: u64,
-    start: usize,
-    cells: Vec<String>,
-}
-
-impl Line {
-    fn filled(&self) -> usize {
-        self.cells.iter().filter(|c| !c.is_empty()).count()
-    }
+    /// For each column, which oddities its cells may have.
+    pub(crate) oddities: Vec<Vec<Oddity>>,
+    /// For each column, how its numbers are written.
+    pub(crate) styles: Vec<Option<Style>>,
+    /// True where every row has the same length.
+    pub(crate) fixed_width: bool,
+    /// What was recognised that a user may want to correct.
+    pub(crate) said: Vec<String>,
+    /// True when the first lines were enough to tell all.
+    complete: bool,
 }
 
 /// The error for a quote that is not closed.
@@ -72,69 +80,117 @@ pub(crate) fn open_quote(path: &Path, quote: OpenQuote) -> Error {
     }
 }
 
+fn no_table(path: &Path, e: NoTable) -> Error {
+    match e {
+        NoTable::Open(quote) => open_quote(path, quote),
+        NoTable::Wide { line } => Error::Input {
+            path: path.to_path_buf(),
+            line: Some(line),
+            what: format!("more than {MOST_COLUMNS} cells in a row"),
+            help: "name the --delimiter if it was taken for another; a table that wide is to be split by columns"
+                .into(),
+        },
+    }
+}
+
+/// The lines that were looked at, and the tables among them.
+struct Seen {
+    lines: Vec<Line>,
+    tables: Vec<Table>,
+    /// True when the first lines were enough.
+    complete: bool,
+}
+
 impl Head {
     /// Reads the head of `text`.
     ///
     /// # Errors
-    /// [`Error::Input`] for an open quote, a file without rows, and one without numbers.
+    /// [`Error::Input`] for an open quote, a file without rows, and one without numbers; [`Error::Usage`] for a line or
+    /// a table that is not there.
     pub(crate) fn of(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
         let (layout, decimal_comma) = sniff(text.body(), options);
         let reading = Reading::new(decimal_comma, &options.missing);
-        let (lines, comments) = first_lines(text, layout, path)?;
-        let typed = typed_columns(&lines, &reading);
-        let found = lines.iter().take(MOST_PREAMBLE + 1).position(|l| is_data(l, &typed, &reading));
-        let Some(mut data) = found else { return Err(no_numbers(&lines, path)) };
-        match options.header {
-            Some(true) if data == 0 => data = 1,
-            Some(false) => data = 0,
-            _ => {}
+        let mut of = Lines { body: text.body(), layout, encoding: text.encoding, skip: options.skip.unwrap_or(0) };
+        let mut seen = Seen::of(&of, &reading, options).map_err(|e| no_table(path, e))?;
+        let Some(first) = seen.chosen(options)?.map(|(_, t)| t.first) else {
+            return Err(no_numbers(&seen.lines, path));
+        };
+        if options.comment.is_none()
+            && let Some(mark) = mark_of(&seen.lines, first, layout, options)
+        {
+            of.layout.mark = Some(mark);
+            seen = Seen::of(&of, &reading, options).map_err(|e| no_table(path, e))?;
         }
-        let (before, rows) = lines.split_at(data.min(lines.len()));
-        let Some(first) = rows.first() else {
-            return Err(no_rows(path, &lines));
-        };
-        // Of several lines before the data, titles fill fewer cells than the header.
-        let header_at = before.iter().enumerate().max_by_key(|(i, l)| (l.filled(), usize::MAX - i)).map(|(i, _)| i);
-        let units_at = header_at.map(|h| h + 1).filter(|u| u + 1 == data && is_units(&before[*u]));
-        let counts: Vec<usize> = rows.iter().map(|l| l.cells.len()).collect();
-        let usual = most_frequent(&counts).map_or(0, |(count, _)| count);
-        let commented = match header_at {
-            None if options.header != Some(false) => commented_header(&comments, usual, &reading),
-            _ => None,
-        };
-        let header = header_at.map(|h| &before[h]).or(commented.as_ref());
-        let width = header.map_or(counts.iter().copied().max().unwrap_or(0), |h| h.cells.len().max(usual));
-        let expected = header.map_or(width, |h| h.cells.len());
-        let counts = [expected, if usual.abs_diff(expected) == 1 && header.is_some() { usual } else { expected }];
-        let mut named = header.map(|h| h.cells.clone()).unwrap_or_default();
-        named.resize(width, String::new());
-        let units = named.iter().enumerate().map(|(i, name)| {
-            let row_unit = units_at.and_then(|u| before[u].cells.get(i)).map(|u| without_brackets(u));
-            row_unit.filter(|u| !u.is_empty()).unwrap_or_else(|| names::unit_of(name))
-        });
-        let last = &rows[rows.len() - 1];
+        let Some((number, table)) = seen.chosen(options)? else { return Err(no_numbers(&seen.lines, path)) };
+        Self::of_table(&seen, (number, table), &of, reading, (options, path))
+    }
+
+    fn of_table(
+        seen: &Seen,
+        (number, table): (usize, Table),
+        of: &Lines<'_>,
+        reading: Reading,
+        (options, path): (&LoadOptions, &Path),
+    ) -> Result<Self> {
+        let lines = &seen.lines[..table.after];
+        let (first, heading) = told_heading(lines, table.first, of, &reading, options)?;
+        let rows: Vec<&Line> = lines[first.min(lines.len())..].iter().filter(|l| l.is_data()).take(SAMPLE).collect();
+        let [row, ..] = rows.as_slice() else { return Err(no_rows(path, lines)) };
+        let usual = usual_width(rows.iter().copied());
+        let header = heading.names_at.is_some();
+        let widest = rows.iter().map(|l| l.cells.len()).max().unwrap_or(0);
+        let expected = heading.names_at.map(|_| heading.cells.unwrap_or(heading.names.len()));
+        let (names, width) = named(&heading, options, usual, widest);
+        let expected =
+            expected.filter(|e| e.abs_diff(usual) > 1).unwrap_or(if header { heading.names.len() } else { width });
+        let counts = [expected, if usual.abs_diff(expected) == 1 && header { usual } else { expected }];
+        let counts = if options.names.is_empty() { counts } else { [usual, usual] };
+        let units = (0..width).map(|i| unit(&heading, &names, i)).collect();
+        let place = |at: Option<usize>| at.map(|at| (lines[at].start, lines[at].length));
+        let repeats = [heading.names_at, heading.units_at].into_iter().flatten().filter(|at| lines[*at].is_data());
+        let repeats =
+            repeats.map(|at| of.body[lines[at].start..lines[at].start + lines[at].length].trim_ascii().to_vec());
+        let last = rows[rows.len() - 1];
+        let sample: Vec<Vec<String>> = rows.iter().map(|l| l.cells.clone()).collect();
+        let oddities = (0..width).map(|c| oddities_of(&sample, c, &reading, options)).collect();
+        let cells = |c: usize| sample.iter().filter_map(move |row| row.get(c)).map(String::as_str);
+        let second = options.rules == Rules::Second;
+        let style = |c: usize| Style::of(cells(c), &reading).filter(|_| second);
+        let styles = (0..width).map(style).collect();
+        let fixed_width = second
+            && of.layout.delimiter == super::Delimiter::Blanks
+            && rows.len() > 2
+            && rows.iter().all(|r| r.length == row.length);
+        let end = lines.last().filter(|_| table.after < seen.lines.len()).map(|l| l.next);
         Ok(Self {
-            layout,
-            units: units.collect(),
-            preamble: data,
-            header: header.is_some(),
-            header_line: header.map_or(first.number, |h| h.number),
-            units_row: units_at.is_some(),
-            names: names::unique(named),
+            layout: of.layout,
+            units,
+            preamble: lines[..first].iter().filter(|l| l.is_data()).count(),
+            header,
+            header_line: heading.names_at.map_or(row.number, |at| lines[at].number),
+            header_at: place(heading.names_at),
+            units_at: place(heading.units_at),
+            names,
             counts,
-            data_start: first.start,
-            data_line: first.number,
-            record_bytes: ((last.start - first.start) / (rows.len() - 1).max(1)).max(2),
-            sample: rows.iter().map(|l| l.cells.clone()).collect(),
+            data_start: row.start,
+            data_end: end,
+            data_line: row.number,
+            repeats: repeats.collect(),
+            record_bytes: ((last.start - row.start) / (rows.len() - 1).max(1)).max(2),
+            sample,
             reading,
+            oddities,
+            styles,
+            fixed_width,
+            said: seen.said(number, first, of.layout.mark, options),
+            complete: seen.complete && end.is_none(),
         })
     }
 
     /// True when the head of `part`, the first whole lines of a longer text, is that of the whole text: nothing of what
     /// it was told from lay near the end.
     pub(crate) fn needs_no_more(&self, part: &[u8]) -> bool {
-        let lines = self.preamble + self.sample.len();
-        lines == SAMPLE + MOST_PREAMBLE && part.len() > self.data_start + SAMPLE_BYTES
+        self.complete && self.sample.len() == SAMPLE && part.len() > self.data_start + SAMPLE_BYTES
     }
 
     /// The sampled cells of a column; rows with another number of cells than usual are left out while there are
@@ -147,123 +203,208 @@ impl Head {
     }
 }
 
-/// The first data records that are not empty, and the comments before them.
-fn first_lines(text: &Text<'_>, layout: Layout, path: &Path) -> Result<(Vec<Line>, Vec<Line>)> {
-    let mut lines = Vec::new();
-    let mut comments = Vec::new();
-    for record in Records::new(text.body(), layout) {
-        let record = record.map_err(|q| open_quote(path, q))?;
-        refuse_wide(&record, layout, path)?;
-        match record.kind {
-            RecordKind::Data => {
-                let line = line_of(&record, layout, text);
-                if line.filled() > 0 {
-                    lines.push(line);
-                }
-            }
-            RecordKind::Comment if lines.is_empty() => {
-                let stripped = record.bytes.trim_ascii_start();
-                let marks = stripped.iter().take_while(|b| matches!(b, b'#' | b'%' | b'/')).count();
-                comments.push(line_of(&Record { bytes: &stripped[marks..], ..record }, layout, text));
-            }
-            RecordKind::Comment | RecordKind::Blank => {}
+impl Seen {
+    /// The first lines where they tell enough, otherwise more of them.
+    fn of(of: &Lines<'_>, reading: &Reading, options: &LoadOptions) -> std::result::Result<Self, NoTable> {
+        let told = options.header_line.max(options.units_line).unwrap_or(0);
+        let lines = of.first(SAMPLE + MOST_PREAMBLE + told, usize::MAX)?;
+        let tables = tables(&lines, reading);
+        let all = lines.last().is_none_or(|l| l.next >= of.body.len());
+        let plain = |t: &Table| {
+            lines[..t.first].iter().filter(|l| l.is_data()).count() <= MOST_PREAMBLE && t.rows >= SAMPLE / 2
+        };
+        let clean = matches!(tables.as_slice(), [only] if plain(only));
+        if all || (clean && options.table.is_none_or(|t| t == 1)) {
+            return Ok(Self { complete: clean, lines, tables });
         }
-        if lines.len() == SAMPLE + MOST_PREAMBLE {
-            break;
+        let lines = of.first(MOST_LINES, MOST_BYTES)?;
+        let tables = super::table::tables(&lines, reading);
+        Ok(Self { complete: false, lines, tables })
+    }
+
+    /// The table that is read, and its number from 1.
+    fn chosen(&self, options: &LoadOptions) -> Result<Option<(usize, Table)>> {
+        if let Some(wanted) = options.table {
+            let found = wanted.checked_sub(1).and_then(|t| self.tables.get(t)).copied();
+            return found.map(|t| Some((wanted, t))).ok_or_else(|| {
+                let count = self.tables.len();
+                let what =
+                    format!("there is no table {wanted}: {count} {} found", if count == 1 { "is" } else { "are" });
+                Error::usage(what, format!("tables count from 1; {}", self.listed()))
+            });
         }
+        if let Some(line) = options.header_line {
+            let after = |t: &&(usize, Table)| self.lines[t.1.after - 1].number > line as u64;
+            return Ok((1..).zip(self.tables.iter().copied()).collect::<Vec<_>>().iter().find(after).copied());
+        }
+        let numbered = (1..).zip(self.tables.iter().copied());
+        Ok(numbered.max_by_key(|(number, t)| (t.rows, usize::MAX - number)))
     }
-    Ok((lines, comments))
-}
 
-/// Refuses a row of more cells than any table has, before memory is taken for them.
-fn refuse_wide(record: &Record<'_>, layout: Layout, path: &Path) -> Result<()> {
-    let parts = match layout.delimiter {
-        Delimiter::Byte(delimiter) => memchr::memchr_iter(delimiter, record.bytes).count(),
-        Delimiter::Blanks => record.bytes.iter().filter(|b| b.is_ascii_whitespace()).count(),
-    };
-    if parts < MOST_COLUMNS {
-        return Ok(());
+    fn listed(&self) -> String {
+        let one = |(n, t): (usize, &Table)| {
+            format!("{n} has its rows in lines {} to {}", self.lines[t.first].number, self.lines[t.after - 1].number)
+        };
+        (1..).zip(&self.tables).take(6).map(one).collect::<Vec<_>>().join(", ")
     }
-    Err(Error::Input {
-        path: path.to_path_buf(),
-        line: Some(record.line),
-        what: format!("more than {MOST_COLUMNS} cells in a row"),
-        help: "name the --delimiter if it was taken for another; a table that wide is to be split by columns".into(),
-    })
+
+    fn said(&self, number: usize, first: usize, mark: Option<Mark>, options: &LoadOptions) -> Vec<String> {
+        let mut said = Vec::new();
+        if self.tables.len() > 1 && options.table.is_none() {
+            said.push(format!(
+                "{} tables in one file: {}; table {number} is read (--table reads another)",
+                self.tables.len(),
+                self.listed()
+            ));
+        }
+        let above = self.lines[..first].iter().filter(|l| l.is_data()).count();
+        let marked =
+            mark.filter(|_| options.comment.is_none()).map(|m| String::from_utf8_lossy(m.bytes()).into_owned());
+        if let Some(mark) = marked {
+            said.push(format!("lines that begin with {} are comments", printable(&mark)));
+        }
+        if above > 3 && options.header_line.is_none() && options.skip.is_none() {
+            said.push(format!(
+                "the rows begin in line {}, below {above} lines of other text (--header-line names the line of the header)",
+                self.lines[first].number
+            ));
+        }
+        said
+    }
 }
 
-fn line_of(record: &Record<'_>, layout: Layout, text: &Text<'_>) -> Line {
-    let mut spans = Vec::new();
-    split(record.bytes, layout, &mut spans);
-    let cells =
-        Cells { record: record.bytes, spans: &spans, quote: layout.quote, encoding: text.encoding, line: record.line };
-    let cells = (0..cells.len()).map(|c| cells.text(c).into_owned()).collect();
-    Line { number: record.line, start: record.start, cells }
-}
-
-/// For each column: do its cells, in the later half of the lines, read as numbers or times?
-fn typed_columns(lines: &[Line], reading: &Reading) -> Vec<bool> {
-    let tail = &lines[lines.len() / 2..];
-    let width = tail.iter().map(|l| l.cells.len()).max().unwrap_or(0);
-    let counts = |column: usize| {
-        let looks = tail.iter().filter_map(|l| l.cells.get(column)).map(|c| look(c.as_bytes(), reading));
-        looks.fold((0, 0), |(typed, text), look| match look {
-            Look::Number | Look::Time => (typed + 1, text),
-            Look::Text => (typed, text + 1),
-            Look::Empty => (typed, text),
+/// The first row, and what the lines above it say: as the options have it, or as it is recognised.
+fn told_heading(
+    lines: &[Line],
+    first: usize,
+    of: &Lines<'_>,
+    reading: &Reading,
+    options: &LoadOptions,
+) -> Result<(usize, Heading)> {
+    let place = |number: usize, option: &str| {
+        lines.iter().position(|l| l.number == number as u64).ok_or_else(|| {
+            Error::usage(format!("--{option} {number}: there is no such line above the rows"), "lines count from 1")
         })
     };
-    (0..width).map(counts).map(|(typed, text)| typed > 0 && typed >= text).collect()
-}
-
-/// A row of data has numbers where the columns have them. A few may hold text, but not under the name of a time.
-fn is_data(line: &Line, typed: &[bool], reading: &Reading) -> bool {
-    let (mut read, mut text) = (0, 0);
-    for (cell, _) in line.cells.iter().zip(typed).filter(|(_, typed)| **typed) {
-        match look(cell.as_bytes(), reading) {
-            Look::Number | Look::Time => read += 1,
-            Look::Text if names::time_rank(cell) > 1 => return false,
-            Look::Text => text += 1,
-            Look::Empty => {}
+    let mut first = first;
+    let mut found = match (options.header_line, options.header) {
+        (Some(number), _) => {
+            let at = place(number, "header-line")?;
+            let row = (at + 1..lines.len()).find(|i| lines[*i].is_data()).unwrap_or(lines.len());
+            first = if at < first { first } else { row };
+            let usual = usual_width(lines[first.min(lines.len())..].iter().filter(|l| l.is_data()).take(SAMPLE));
+            let cells = super::table::named_cells(&lines[at], usual, of, lines.get(first), reading);
+            let count = cells.len();
+            Heading {
+                names_at: Some(at),
+                names: cells,
+                cells: Some(count),
+                ..heading(lines, first, of, reading).only_units_below(at)
+            }
+        }
+        (None, Some(false)) => {
+            first = lines.iter().position(Line::is_data).unwrap_or(first).min(first);
+            Heading::default()
+        }
+        (None, Some(true)) if !lines[..first].iter().any(Line::is_data) => {
+            let at = first;
+            first = (at + 1..lines.len()).find(|i| lines[*i].is_data()).unwrap_or(lines.len());
+            Heading {
+                names_at: Some(at),
+                names: lines[at].cells.clone(),
+                cells: Some(lines[at].cells.len()),
+                ..Heading::default()
+            }
+        }
+        _ => heading(lines, first, of, reading),
+    };
+    if let Some(number) = options.units_line {
+        let at = place(number, "units-line")?;
+        (found.units_at, found.units) = (Some(at), lines[at].cells.clone());
+        if at >= first {
+            first = (at + 1..lines.len()).find(|i| lines[*i].is_data()).unwrap_or(lines.len());
+        }
+        if found.names_at == Some(at) {
+            (found.names_at, found.names, found.cells) = (None, Vec::new(), None);
         }
     }
-    read > 0 && read >= text
+    Ok((first, found))
 }
 
-fn is_units(line: &Line) -> bool {
-    line.cells.iter().all(|c| c.chars().count() < LONGEST_UNIT)
+/// The names of the columns, and how many there are.
+fn named(heading: &Heading, options: &LoadOptions, usual: usize, widest: usize) -> (Vec<String>, usize) {
+    let width = match heading.names_at {
+        Some(_) => heading.names.len().max(usual),
+        None => widest,
+    };
+    let mut named = heading.names.clone();
+    named.resize(width, String::new());
+    for (name, told) in named.iter_mut().zip(&options.names) {
+        if !told.is_empty() {
+            name.clone_from(told);
+        }
+    }
+    (names::unique(named), width)
 }
 
-fn without_brackets(unit: &str) -> String {
-    unit.trim_matches(['(', ')', '[', ']']).trim().to_owned()
+/// The unit of a column: that of the line of units, or that in its name.
+fn unit(heading: &Heading, names: &[String], column: usize) -> String {
+    let of_row = heading.units.get(column).map(|u| u.trim_matches(['(', ')', '[', ']']).trim().to_owned());
+    of_row.filter(|u| !u.is_empty() && u != "-").unwrap_or_else(|| names::unit_of(&names[column]))
 }
 
-/// The last comment that has a name for each cell of a row.
-fn commented_header(comments: &[Line], usual: usize, reading: &Reading) -> Option<Line> {
-    let is_name = |cell: &String| look(cell.as_bytes(), reading) == Look::Text;
-    let fits = |line: &&Line| line.cells.len() == usual && usual > 1 && line.cells.iter().all(is_name);
-    comments.iter().rev().find(fits).map(|l| Line { number: l.number, start: l.start, cells: l.cells.clone() })
+/// Which oddities the cells of a column have, where it is one of numbers all the same.
+fn oddities_of(sample: &[Vec<String>], column: usize, reading: &Reading, options: &LoadOptions) -> Vec<Oddity> {
+    if options.rules == Rules::First {
+        return Vec::new();
+    }
+    // What can be nothing else is read in any column of numbers.
+    let mut found = vec![Oddity::DExponent, Oddity::Formula, Oddity::SpacedSign, Oddity::Limit];
+    let (mut bare, mut odds, mut texts, mut loose) = (0, 0, 0, 0);
+    let mut seen = Vec::new();
+    for cell in sample.iter().filter_map(|row| row.get(column)).filter(|c| !reading.is_marker(c.as_bytes())) {
+        match (reading.number(cell.as_bytes()), odd(cell.as_bytes(), reading.decimal_comma)) {
+            (Some(_), _) => bare += 1,
+            (None, Some(odd)) => {
+                odds += 1;
+                loose += usize::from(odd.oddity == Oddity::Letter && !cell.contains([' ', '.', ',']));
+                if !seen.contains(&odd.oddity) {
+                    seen.push(odd.oddity);
+                }
+            }
+            (None, None) => texts += 1,
+        }
+    }
+    // A house number (12A) is no measurement.
+    let named = loose * 2 > bare + odds || (bare == 0 && seen == [Oddity::Letter] && loose > 0);
+    if !named && (bare + odds) * 5 >= (bare + odds + texts) * 4 {
+        found.extend(seen.into_iter().filter(|o| !found.contains(o)).collect::<Vec<_>>());
+    }
+    found
 }
 
 fn no_rows(path: &Path, lines: &[Line]) -> Error {
     Error::Input {
         path: path.to_path_buf(),
-        line: lines.first().map(|l| l.number),
+        line: lines.iter().find(|l| l.is_data()).map(|l| l.number),
         what: "a header, and no rows under it".into(),
         help: "name a file with a header and rows of numbers".into(),
     }
 }
 
 fn no_numbers(lines: &[Line], path: &Path) -> Error {
-    match lines {
+    let data: Vec<&Line> = lines.iter().filter(|l| l.is_data()).collect();
+    match data.as_slice() {
         [] => Error::input(path, "no rows: nothing but comments or blank lines", "name a file with rows of numbers"),
         [_] => no_rows(path, lines),
         [first, ..] => Error::Input {
             path: path.to_path_buf(),
             line: Some(first.number),
             what: format!("no column of numbers in the first lines; they start with `{}`", shown(first)),
-            help: "expected a header and rows of numbers, in columns parted by comma, semicolon, tab, | or blanks"
-                .into(),
+            help:
+                "expected a header and rows of numbers, in columns parted by comma, semicolon, tab, | or blanks; where \
+                   they begin can be said (--header-line, --skip)"
+                    .into(),
         },
     }
 }
@@ -288,9 +429,9 @@ mod tests {
     #[test]
     fn header_units_and_titles_are_told_apart() {
         let h = head("time,alt\n0,1\n1,2\n");
-        assert_eq!((h.header, h.units_row, h.preamble, h.data_line), (true, false, 1, 2));
+        assert_eq!((h.header, h.units_at.is_some(), h.preamble, h.data_line), (true, false, 1, 2));
         let h = head("time,alt,state\ns,ft,\n0,1,a\n1,2,b\n");
-        assert_eq!((h.header, h.units_row, h.preamble), (true, true, 2));
+        assert_eq!((h.header, h.units_at.is_some(), h.preamble), (true, true, 2));
         assert_eq!(h.units, ["s", "ft", ""]);
         let h = head("SpCond,,\nstart,end,gap\n2014-01-24 13:15,2014-02-26 13:30,-20.00\n");
         assert_eq!((h.names.join(" "), h.header_line, h.preamble), ("start end gap".into(), 2, 2));

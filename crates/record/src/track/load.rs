@@ -5,19 +5,22 @@ use std::sync::Arc;
 
 use super::body::{Body, Numbers, Plan};
 use super::feed::{Feed, Unfit};
+use super::formats;
 use super::head::{Head, open_quote};
+use super::mend::{About, Mended};
+use super::odd::Oddity;
 use super::order::{Moments, Ordered, Rows, order, sample_numbers};
-use super::roles::{Roles, assign};
-use super::shape::{refuse_long_form, refuse_other_formats};
+use super::roles::{Roles, assign, release};
+use super::shape::{refuse_binaries, refuse_long_form, refuse_other_formats};
 use super::streamed::streamed;
-use super::targets::Targets;
+use super::targets::{self, Targets};
 use super::text::{Text, path_of, sha256, stored};
 use super::timing::{Timing, choose};
 use super::tokens::inner;
 use super::waves::{Failure, parse};
 use super::{
-    Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Extent, Fault, Faults, LoadOptions, Source, TimeAxis,
-    TimeFormat, Track, Wanted, notes, printable, rows,
+    Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Extent, Fault, Faults, LoadOptions, RowsAt, Rules,
+    Source, TimeAxis, TimeFormat, Track, Wanted, notes, printable, rows,
 };
 use crate::error::{Error, Result};
 
@@ -55,6 +58,7 @@ pub fn load_extent(source: &Source, options: &LoadOptions, extent: Extent, wante
     let path = path_of(source);
     let stored = stored(source, extent)?;
     still()?;
+    refuse_binaries(&stored, &path)?;
     let text = Text::of(&stored, &path, options.encoding)?;
     still()?;
     let understood = Understood::of(&text, options, &path)?;
@@ -63,7 +67,8 @@ pub fn load_extent(source: &Source, options: &LoadOptions, extent: Extent, wante
     let (sha256, parsed) = rayon::join(
         || sha256(&stored, wanted),
         || {
-            let rows = &text.body()[understood.head.data_start..];
+            let head = &understood.head;
+            let rows = &text.body()[head.data_start..head.data_end.unwrap_or(text.body().len())];
             understood.parse(|| Ok((feed(rows), rows.len() as u64)))
         },
     );
@@ -73,8 +78,7 @@ pub fn load_extent(source: &Source, options: &LoadOptions, extent: Extent, wante
         Failure::Full(full) | Failure::Unfit(Unfit::Full(full)) => Error::memory(&path)(full),
         Failure::Unfit(_) => Error::input(&path, "it cannot be read", "copy or fetch the file again"),
     })?;
-    let track =
-        understood.track(source, (sha256, stored.len() as u64), parsed, (options, wanted), &|| Ok(feed(text.body())));
+    let track = understood.track(source, (sha256, stored.len() as u64), parsed, wanted, &|| Ok(feed(text.body())));
     still()?;
     track
 }
@@ -87,6 +91,9 @@ pub(super) struct Understood {
     encoding: Encoding,
     gzip: bool,
     path: PathBuf,
+    rules: Rules,
+    /// What the user told, completed by the format.
+    options: LoadOptions,
 }
 
 /// A number that is written with a decimal comma between commas would be two cells.
@@ -111,7 +118,13 @@ impl Understood {
     /// From the text, or from so much of it that [`Head::needs_no_more`].
     pub(super) fn of(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
         refuse_other_formats(text.body(), path)?;
-        let head = Head::of(text, options, path)?;
+        let (completed, format) = match options.rules {
+            Rules::First => (options.clone(), None),
+            Rules::Second => formats::completed(text.body(), options),
+        };
+        let options = &completed;
+        let mut head = Head::of(text, options, path)?;
+        head.said.extend(format.map(|f| format!("recognised as {}: {}", f.name, f.about)));
         refuse_torn_decimals(&head)?;
         if options.track.is_none() {
             refuse_long_form(&head, path)?;
@@ -120,7 +133,8 @@ impl Understood {
         let timing = if by_sample { None } else { choose(&head, options, path)? };
         let roles = assign(&head, timing.as_ref(), options)?;
         let (encoding, gzip) = (text.encoding, text.gzip);
-        Ok(Self { head, timing, roles, encoding, gzip, path: path.to_path_buf() })
+        let rules = options.rules;
+        Ok(Self { head, timing, roles, encoding, gzip, path: path.to_path_buf(), rules, options: completed })
     }
 
     /// Parses the rows of a feed that begins with the first of them and has about so many bytes; gives the feed of
@@ -138,6 +152,11 @@ impl Understood {
             counts: self.head.counts,
             timing: self.timing.clone(),
             record_bytes: self.head.record_bytes,
+            repeats: &self.head.repeats,
+            oddities: &self.head.oddities,
+            truths: self.roles.truths.clone(),
+            late: &self.roles.late,
+            footer: self.rules == Rules::Second,
         };
         let (mut feed, bytes) = rows().map_err(Failure::Unfit)?;
         let mut body = parse(&mut feed, bytes, self.head.data_line, &plan)?;
@@ -163,9 +182,10 @@ impl Understood {
         source: &Source,
         (sha256, bytes): (String, u64),
         (mut body, moments): Parsed,
-        (options, wanted): (&LoadOptions, Wanted<'_>),
+        wanted: Wanted<'_>,
         again: Again<'_>,
     ) -> Result<Track> {
+        let options = &self.options;
         let Self { head, timing, roles, path, .. } = self;
         let timing = timing.as_ref();
         if u32::try_from(body.rows).is_err() {
@@ -174,7 +194,6 @@ impl Understood {
         }
         let share = body.kept();
         let columns = columns_of(head, timing, roles, &body, options)?;
-        let clock = timing.is_some_and(|t| t.format == TimeFormat::Clock);
         let mut track = Track {
             source: source.clone(),
             sha256,
@@ -187,33 +206,124 @@ impl Understood {
             channels: channels_of(&columns, roles, &mut body, (head, path))?,
             faults: cell_faults(&columns, roles, &body),
             columns,
-            notes: Vec::new(),
+            notes: self.said(&body),
             share: Arc::new(share),
         };
-        let targets = match roles.track {
+        if self.rules == Rules::Second {
+            lost(&track, path)?;
+        }
+        let track_column = match roles.track {
+            Some(told) => Some(told),
+            None if self.rules == Rules::Second => targets::recognised(&mut track, moments.as_ref(), again, head)?,
+            None => None,
+        };
+        let targets = match track_column {
             Some(column) => Some(Targets::divide(&mut track, column, again, (head, options))?),
             None => None,
         };
         let of_row = targets.as_ref().map(|t| t.of_row.as_slice());
         match (moments, of_row) {
-            (Some(moments), _) => take_times(&mut track, order(moments, clock, of_row, wanted), again)?,
+            (Some(moments), _) => self.take_times(&mut track, moments, (of_row, wanted), again)?,
             (None, Some(of_row)) => track.time.seconds = sample_numbers(of_row),
             (None, None) => {}
         }
         track.notes.extend(notes::about_shape(&track, head, options.time.is_some()));
+        if self.rules == Rules::Second {
+            lost_times(&track, path)?;
+        }
         Ok(track)
+    }
+
+    /// What was recognised in the head and in the rows, in a line each.
+    fn said(&self, body: &Body) -> Vec<String> {
+        let mut said = self.head.said.clone();
+        said.extend(self.timing.iter().flat_map(|t| t.said.iter().cloned()));
+        for (column, slot) in self.roles.slots.iter().enumerate() {
+            let Some(numbers) = slot.map(|slot| &body.numbers[slot]) else { continue };
+            if numbers.late > 0 && numbers.present > 0 {
+                let texts: Vec<String> = self.roles.late[column].iter().map(|t| printable(t)).collect();
+                let name = printable(&self.head.names[column]);
+                said.push(format!("`{name}`: {} cells hold {}, taken as missing", numbers.late, texts.join(" or ")));
+            }
+            for oddity in Oddity::ALL {
+                let count = numbers.odd[oddity as usize];
+                if count > 0 {
+                    let name = printable(&self.head.names[column]);
+                    let cells = if count == 1 { "1 cell has".to_owned() } else { format!("{count} cells have") };
+                    said.push(format!("`{name}`: {cells} {}", oddity.words()));
+                }
+            }
+        }
+        if body.tail.texts > 0 {
+            let (lines, are) = if body.tail.texts == 1 { ("line", "is no row") } else { ("lines", "are no rows") };
+            said.push(format!("{} {lines} of text below the rows {are}", body.tail.texts));
+        }
+        if body.repeats > 0 {
+            said.push(format!("the header comes again among the rows ({} lines are no rows)", body.repeats));
+        }
+        said
+    }
+
+    /// Takes the times of the rows, mended where they do not go forward, and finds the lines of those that are of no use.
+    fn take_times(
+        &self,
+        track: &mut Track,
+        moments: Moments,
+        (of_row, wanted): (Option<&[u32]>, Wanted<'_>),
+        again: Again<'_>,
+    ) -> Result<()> {
+        let Some(timing) = &self.timing else { return Ok(()) };
+        let clock = timing.is_of_day();
+        let mut moments = moments;
+        let mut mended = Mended::default();
+        if self.rules == Rules::Second {
+            let about = About { clock, wrap: timing.wraps_after(), zone: timing.zone.as_ref(), of_row };
+            mended = moments.mended(about);
+        }
+        track.time.newest_first = mended.newest_first;
+        if mended.newest_first {
+            track.notes.push("the newest row stands first: the record is read from its end".into());
+        }
+        if mended.wraps > 0 {
+            track.notes.push(format!("the counter of the time began again {}", times(mended.wraps)));
+        }
+        if mended.repeated_hour > 0 {
+            track.notes.push(format!("{} rows are of an hour that clocks showed twice", mended.repeated_hour));
+        }
+        let reversed: Option<Vec<u32>> =
+            of_row.filter(|_| mended.newest_first).map(|o| o.iter().rev().copied().collect());
+        if mended.newest_first {
+            moments.reverse();
+        }
+        let mut ordered = order(moments, clock, reversed.as_deref().or(of_row), wanted);
+        if mended.newest_first {
+            ordered.reverse();
+        }
+        ordered.unreadable.without(&mended.wild);
+        take_times(track, ordered, &mended.wild, again)
     }
 
     fn dialect(&self, options: &LoadOptions) -> Dialect {
         let head = &self.head;
+        let rows = RowsAt {
+            start: head.data_start,
+            line: head.data_line,
+            header: head.header_at,
+            units: head.units_at,
+            repeats: head.repeats.clone(),
+            mark: head.layout.mark,
+        };
         Dialect {
+            rows,
+            styles: head.styles.clone(),
+            fixed_width: head.fixed_width,
             delimiter: head.layout.delimiter,
             quote: head.layout.quote,
             decimal_comma: head.reading.decimal_comma,
             encoding: self.encoding,
             gzip: self.gzip,
             header: head.header,
-            units_row: head.units_row,
+            units_row: head.units_at.is_some(),
             missing: options.missing.clone(),
             preamble: head.preamble,
         }
@@ -232,7 +342,7 @@ fn columns_of(
         let name = &head.names[index];
         let numbers = roles.slots[index].map(|slot| &body.numbers[slot]);
         let kind = match numbers {
-            _ if timing.is_some_and(|t| t.column == index || t.date_column == Some(index)) => ColumnKind::Time,
+            _ if timing.is_some_and(|t| t.has(index)) => ColumnKind::Time,
             _ if roles.track == Some(index) => ColumnKind::Track,
             Some(numbers) if roles.truth == Some(index) => {
                 check_truth(name, numbers)?;
@@ -251,6 +361,11 @@ fn columns_of(
         Ok(Column { name: name.clone(), unit: head.units[index].clone(), kind, missing: body.missing[index] })
     };
     let mut columns = (0..head.names.len()).map(column).collect::<Result<Vec<_>>>()?;
+    if options.channels.is_empty() {
+        let mut kinds: Vec<ColumnKind> = columns.iter().map(|c| c.kind).collect();
+        release(&mut kinds);
+        columns.iter_mut().zip(kinds).for_each(|(column, kind)| column.kind = kind);
+    }
     if options.channels.is_empty() && !columns.iter().any(|c| c.kind == ColumnKind::Number) {
         // A lone column that looks like truth is all there is to look at.
         columns.iter_mut().filter(|c| c.kind == ColumnKind::Truth).for_each(|c| c.kind = ColumnKind::Number);
@@ -333,6 +448,53 @@ fn cell_faults(columns: &[Column], roles: &Roles, body: &Body) -> Faults {
     }
 }
 
+/// `once`, or how often.
+fn times(count: usize) -> String {
+    if count == 1 { "once".into() } else { format!("{count} times") }
+}
+
+/// Refuses a table most of whose cells could not be read.
+///
+/// # Errors
+/// [`Error::Input`] with the first of them and the way out.
+fn lost(track: &Track, path: &Path) -> Result<()> {
+    let ragged = &track.faults.ragged_rows;
+    let cells = &track.faults.unreadable_cells;
+    let numbers = track.channels.len().max(1);
+    let most = |count: usize, of: usize| of >= LEAST_LOST && count * 2 > of;
+    if most(ragged.count, track.rows) && most(cells.count, track.rows.saturating_mul(numbers)) {
+        return Err(mostly_lost(path, cells, "cells hold no numbers", track.rows));
+    }
+    Ok(())
+}
+
+/// Rows of a record below which nothing is said of losing most of them.
+const LEAST_LOST: usize = 8;
+
+/// Refuses a record most of whose rows have no usable time.
+///
+/// # Errors
+/// [`Error::Input`] with the first of them and the way out.
+fn lost_times(track: &Track, path: &Path) -> Result<()> {
+    let unreadable = &track.faults.unreadable_times;
+    if track.rows >= LEAST_LOST && unreadable.count * 2 > track.rows {
+        return Err(mostly_lost(path, unreadable, "rows have no time that can be read", track.rows));
+    }
+    Ok(())
+}
+
+fn mostly_lost(path: &Path, fault: &Fault, what: &str, rows: usize) -> Error {
+    let (line, text) = fault.first.first().cloned().unwrap_or_default();
+    Error::Input {
+        path: path.to_path_buf(),
+        line: Some(line).filter(|l| *l > 0),
+        what: format!("most of its {rows} rows are lost: {} {what}, like {}", fault.count, printable(&text)),
+        help: "say where the header is (--header-line), how times are written (--time-format), or which column is the time \
+               (--time; `sample` for the sample number)"
+            .into(),
+    }
+}
+
 /// The axis of the file; the sample number until the times are taken.
 fn time_axis(head: &Head, timing: Option<&Timing>, rows: usize) -> TimeAxis {
     match timing {
@@ -340,6 +502,9 @@ fn time_axis(head: &Head, timing: Option<&Timing>, rows: usize) -> TimeAxis {
             name: head.names[timing.column].clone(),
             column: Some(timing.column),
             date_column: timing.date_column,
+            part_columns: timing.columns.clone(),
+            zone: timing.zone.clone(),
+            newest_first: false,
             format: timing.format.clone(),
             origin_ns: 0,
             seconds: Vec::new(),
@@ -348,6 +513,9 @@ fn time_axis(head: &Head, timing: Option<&Timing>, rows: usize) -> TimeAxis {
             name: "sample".into(),
             column: None,
             date_column: None,
+            part_columns: Vec::new(),
+            zone: None,
+            newest_first: false,
             format: TimeFormat::SampleNumber,
             origin_ns: 0,
             #[expect(clippy::cast_precision_loss, reason = "fewer than 2^32 rows")]
@@ -357,12 +525,13 @@ fn time_axis(head: &Head, timing: Option<&Timing>, rows: usize) -> TimeAxis {
 }
 
 /// Takes the times of the rows, and finds the lines of those that are of no use.
-fn take_times(track: &mut Track, ordered: Ordered, again: Again<'_>) -> Result<()> {
+fn take_times(track: &mut Track, ordered: Ordered, wild: &[usize], again: Again<'_>) -> Result<()> {
     let Ordered { origin_ns, seconds, repeated, backward, unreadable } = ordered;
-    let last = [&repeated, &backward, &unreadable].iter().filter_map(|r| r.first.last().copied()).max();
+    let wild = Rows { count: wild.len(), first: wild.iter().copied().take(Fault::KEPT).collect() };
+    let last = [&repeated, &backward, &unreadable, &wild].iter().filter_map(|r| r.first.iter().max().copied()).max();
     track.time.origin_ns = origin_ns;
     track.time.seconds = seconds;
-    let mut faults = [(repeated, Fault::default()), (backward, Fault::default()), (unreadable, Fault::default())];
+    let mut faults = [repeated, backward, unreadable, wild].map(|rows| (rows, Fault::default()));
     let column = track.time.column.unwrap_or_default();
     if let Some(last) = last {
         rows::walk_feed(track, &mut again()?, |row, record, splitter| {
@@ -377,7 +546,7 @@ fn take_times(track: &mut Track, ordered: Ordered, again: Again<'_>) -> Result<(
     }
     let first_backward = faults[1].0.first.first().copied();
     let counted = |(rows, fault): (Rows, Fault)| Fault { count: rows.count, ..fault };
-    let [repeated, backward, unreadable] = faults.map(counted);
+    let [repeated, backward, unreadable, wild] = faults.map(counted);
     if let Some(row) = first_backward
         && backward.count * 10 > track.rows
     {
@@ -386,5 +555,6 @@ fn take_times(track: &mut Track, ordered: Ordered, again: Again<'_>) -> Result<(
     track.faults.repeated_times = repeated;
     track.faults.backward_times = backward;
     track.faults.unreadable_times = unreadable;
+    track.faults.wild_times = wild;
     Ok(())
 }

@@ -6,7 +6,7 @@ use super::calendar::{DAY, SECOND};
 use crate::error::{Error, Result, nearest};
 
 /// Ends of names that are units, and the units as people write them.
-const UNITS: [(&str, &str); 56] = [
+const UNITS: [(&str, &str); 76] = [
     ("m", "m"),
     ("km", "km"),
     ("cm", "cm"),
@@ -27,6 +27,26 @@ const UNITS: [(&str, &str); 56] = [
     ("ns", "ns"),
     ("nanos", "ns"),
     ("nanoseconds", "ns"),
+    ("second", "s"),
+    ("millisecond", "ms"),
+    ("msec", "ms"),
+    ("msecs", "ms"),
+    ("microsecond", "us"),
+    ("usec", "us"),
+    ("usecs", "us"),
+    ("nanosecond", "ns"),
+    ("nsec", "ns"),
+    ("minute", "min"),
+    ("mins", "min"),
+    ("hour", "h"),
+    ("hrs", "h"),
+    ("hr", "h"),
+    ("day", "d"),
+    ("d", "d"),
+    ("knots", "kt"),
+    ("meter", "m"),
+    ("metre", "m"),
+    ("degrees", "deg"),
     ("min", "min"),
     ("minutes", "min"),
     ("h", "h"),
@@ -65,6 +85,11 @@ const UNITS: [(&str, &str); 56] = [
     ("psu", "psu"),
 ];
 
+/// True for a unit that names may end with.
+pub(crate) fn is_unit(text: &str) -> bool {
+    known_unit(text).is_some()
+}
+
 fn known_unit(text: &str) -> Option<&'static str> {
     UNITS.iter().find(|(end, _)| text.eq_ignore_ascii_case(end)).map(|(_, unit)| *unit)
 }
@@ -75,17 +100,48 @@ pub(crate) fn unit_of(name: &str) -> String {
     let bracketed =
         |open, close| name.strip_suffix(close).and_then(|n: &str| n.rsplit_once(open)).map(|(_, unit)| unit.trim());
     if let Some(unit) = bracketed('[', ']') {
-        return unit.to_owned();
+        // A device (`[X16-5]`) or a station is no unit.
+        let device = unit.contains(|c: char| c.is_ascii_digit()) && !unit.contains(['/', '^', '²', '³', '-', '*', '°']);
+        let device = device
+            || unit.split(['-', ' ']).any(|w| {
+                w.len() > 1 && w.contains(|c: char| c.is_ascii_digit()) && w.contains(|c: char| c.is_ascii_uppercase())
+            });
+        return if device && known_unit(unit).is_none() { String::new() } else { unit.to_owned() };
     }
     if let Some(unit) = bracketed('(', ')') {
         return known_unit(unit).or(unit.contains('/').then_some(unit)).unwrap_or_default().to_owned();
     }
-    // A name that is nothing but a unit (`v`, `h`) is a quantity.
-    let end = name.rsplit_once(['_', ' ']).map(|(_, end)| end).or_else(|| words(name).get(1..)?.last().copied());
-    // `igniter_c` counts igniters.
-    let of_temperature = name.to_lowercase().contains("temp");
-    let end = end.filter(|e| of_temperature || !(e.eq_ignore_ascii_case("c") || e.eq_ignore_ascii_case("k")));
-    end.and_then(known_unit).unwrap_or_default().to_owned()
+    // A name that is nothing but a unit (`v`, `hPa`) is a quantity.
+    if known_unit(name).is_some() {
+        return String::new();
+    }
+    let end = name.rsplit_once(['_', ' ']).map(|(_, end)| end);
+    if let Some(end) = end.filter(|e| e.contains('/')) {
+        return end.to_owned();
+    }
+    // `PRES.hPa` ends with hectopascals, `TimeNanos` with nanoseconds.
+    let dotted = name
+        .rsplit(|c: char| !c.is_alphanumeric())
+        .next()
+        .filter(|end| end.len() < name.len() && known_unit(end).is_some());
+    let end = end.or(dotted).or_else(|| words(name).get(1..)?.last().copied());
+    // `igniter_c` counts igniters, `Batt_Min` is the least of a battery's voltages.
+    let lower = name.to_lowercase();
+    let of_temperature = lower.contains("temp");
+    let of_time =
+        time_rank_of(&lower) || ["duration", "interval", "age", "delay", "elapsed"].iter().any(|w| lower.contains(w));
+    let fits = |e: &&str| match e.to_ascii_lowercase().as_str() {
+        "c" | "k" => of_temperature,
+        "min" | "mins" | "d" | "day" | "hour" | "hr" | "second" | "minute" => of_time,
+        _ => true,
+    };
+    end.filter(fits).and_then(known_unit).unwrap_or_default().to_owned()
+}
+
+/// True where the first word of a name, in lower case, says time.
+fn time_rank_of(lower: &str) -> bool {
+    let first = words(lower).first().map_or("", |w| *w);
+    TIMES.contains(&first) || first == "t"
 }
 
 /// The words of a name: parts between punctuation, and `camelCase` parts.
@@ -107,6 +163,95 @@ pub(crate) fn words(name: &str) -> Vec<&str> {
     words
 }
 
+/// Words for times, in lower case, in the languages that records are written in.
+const TIMES: [&str; 31] = [
+    "time",
+    "times",
+    "timestamp",
+    "timestamps",
+    "datetime",
+    "utc",
+    "utctime",
+    "datetimes",
+    "tmstamp",
+    "timestmp",
+    "gpst",
+    "gpstime",
+    "时间",
+    "时刻",
+    "日時",
+    "時刻",
+    "zeit",
+    "zeitstempel",
+    "uhrzeit",
+    "temps",
+    "heure",
+    "horodatage",
+    "fecha",
+    "hora",
+    "tiempo",
+    "tijd",
+    "tijdstip",
+    "czas",
+    "tid",
+    "время",
+    "ora",
+];
+
+/// Words for dates and for what is counted from one.
+const DATES: [&str; 18] = [
+    "epoch",
+    "date",
+    "unix",
+    "unixtime",
+    "datum",
+    "mjd",
+    "jd",
+    "julian",
+    "datenum",
+    "dates",
+    "dato",
+    "дата",
+    "日期",
+    "decyear",
+    "yyyymmdd",
+    "yyyymmddhhmm",
+    "yyyymmddhh",
+    "yymmdd",
+];
+
+/// Words in the names of years with decimals.
+const YEARS: [&str; 8] = ["year", "yyyy", "decimal", "dec", "fractional", "frac", "years", "fraction"];
+
+/// Names that are times where nothing else stands in them, and their values go forward.
+const SHORT_TIMES: [&str; 25] = [
+    "ms",
+    "msec",
+    "milliseconds",
+    "microseconds",
+    "nanoseconds",
+    "us",
+    "usec",
+    "micros",
+    "t",
+    "ts",
+    "tow",
+    "sec",
+    "secs",
+    "seconds",
+    "elapsed",
+    "stamp",
+    "hours",
+    "days",
+    "day",
+    "millis",
+    "itow",
+    "sow",
+    "met",
+    "hhmmss",
+    "year",
+];
+
 /// Words in the names of columns that tell tracks apart.
 const IDS: [&str; 17] = [
     "id", "flight", "station", "svid", "sv", "prn", "sat", "beacon", "bird", "callsign", "icao24", "series", "sensor",
@@ -126,8 +271,79 @@ pub fn is_id(name: &str) -> bool {
     words.iter().any(|word| is_id_word(word)) && words.iter().all(|word| is_id_word(word) || counts(word))
 }
 
+/// True for names of stations and devices in other spellings: `STATIONS_ID`, `MMSI`, `device_id`.
+pub(crate) fn is_id_name(name: &str) -> bool {
+    const MORE: [&str; 22] = [
+        "stations",
+        "stationid",
+        "stationsid",
+        "stn",
+        "mmsi",
+        "imei",
+        "imo",
+        "serial",
+        "node",
+        "device",
+        "vehicle",
+        "tag",
+        "individual",
+        "site",
+        "buoy",
+        "float",
+        "platform",
+        "norad",
+        "mac",
+        "hex",
+        "icao",
+        "ident",
+    ];
+    let words = words(name);
+    let known = |w: &&str| is_id_word(w) || MORE.iter().any(|m| w.eq_ignore_ascii_case(m));
+    let counts = |w: &&str| {
+        ["no", "nr", "number", "code", "name", "local", "identifier"].iter().any(|n| w.eq_ignore_ascii_case(n))
+    };
+    // `device_id`, but not `device_temp`.
+    !words.is_empty() && words.iter().any(known) && words.iter().all(|w| known(w) || counts(w))
+}
+
+/// True for the name of GPS time, of its weeks or of their seconds.
+pub(crate) fn is_gps_time(name: &str) -> bool {
+    let lower: String = name.to_lowercase().chars().filter(|c| c.is_alphanumeric()).collect();
+    lower.contains("tow") && (lower.contains("gps") || lower.len() <= 6) || lower == "gpsweek" || lower == "gpssec"
+}
+
 /// How much a name says "time": 4 certainly, 0 not at all.
 pub(crate) fn time_rank(name: &str) -> u8 {
+    let words: Vec<String> = words(name).iter().map(|w| w.to_lowercase()).collect();
+    let Some(first) = words.first() else { return 0 };
+    let is_time = |w: &str| TIMES.contains(&w);
+    let is_date = |w: &str| DATES.contains(&w);
+    let without_unit = match words.split_last() {
+        Some((last, rest)) if !rest.is_empty() && known_unit(last).is_some() => rest,
+        _ => &words[..],
+    };
+    let last = without_unit.last().unwrap_or(first);
+    if is_time(first) {
+        4
+    } else if is_time(last) || is_date(first) || is_date(last) {
+        3
+    } else if words.len() > 1
+        && words.iter().any(|w| matches!(w.as_str(), "year" | "yyyy"))
+        && words.iter().all(|w| YEARS.contains(&w.as_str()))
+    {
+        3
+    } else if name.eq_ignore_ascii_case("x_value")
+        || words.iter().any(|w| is_time(w))
+        || (without_unit.len() == 1 && SHORT_TIMES.contains(&first.as_str()))
+    {
+        2
+    } else {
+        0
+    }
+}
+
+/// [`time_rank`] as it was before the rules of [`super::Rules::Second`].
+pub(crate) fn earlier_time_rank(name: &str) -> u8 {
     let words: Vec<String> = words(name).iter().map(|w| w.to_lowercase()).collect();
     let Some(first) = words.first() else { return 0 };
     let is_time =
@@ -151,7 +367,7 @@ pub(crate) fn time_rank(name: &str) -> u8 {
 
 /// True for `truth`, `truth_outlier`, `do_truth`, ….
 pub(crate) fn is_truth(name: &str) -> bool {
-    words(name).iter().any(|w| w.eq_ignore_ascii_case("truth"))
+    words(name).iter().any(|w| w.eq_ignore_ascii_case("truth")) || name.eq_ignore_ascii_case("is_outlier")
 }
 
 /// Nanoseconds in one unit of time of this name.

@@ -1,6 +1,6 @@
 //! How a record is to be loaded.
 
-use super::{Delimiter, Encoding, TimeUnit};
+use super::{Delimiter, Encoding, Pattern, TimeUnit};
 
 /// What the user tells about a file. What is not told is recognised.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -30,4 +30,49 @@ pub struct LoadOptions {
     pub day_first: Option<bool>,
     /// The unit of times that are numbers. Recognised: that of the column, otherwise seconds.
     pub time_unit: Option<TimeUnit>,
+    /// How times are written.
+    pub time_format: Option<Pattern>,
+    /// The zone of clocks that write none, by its name in the IANA database.
+    pub time_zone: Option<String>,
+    /// The line (from 1) that names the columns.
+    pub header_line: Option<usize>,
+    /// Lines at the start that are not looked at.
+    pub skip: Option<usize>,
+    /// The line (from 1) of the units.
+    pub units_line: Option<usize>,
+    /// What comments begin with, besides `#`, `%` and `//`.
+    pub comment: Option<String>,
+    /// The names of the columns, where the file has none or others.
+    pub names: Vec<String>,
+    /// Which table of a file with several, from 1. Recognised: the longest.
+    pub table: Option<usize>,
+    /// By which rules what is not told is recognised.
+    pub rules: Rules,
+}
+
+/// The rules by which a file is understood. A session says by which it was made, so that later rules change no result.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Rules {
+    /// Those of sessions that say nothing.
+    First,
+    /// Times in any spelling and order, roles of columns, repaired cells in the form of their column.
+    #[default]
+    Second,
+}
+
+impl Rules {
+    /// Their number in a session.
+    #[must_use]
+    pub fn number(self) -> i64 {
+        match self {
+            Self::First => 1,
+            Self::Second => 2,
+        }
+    }
+
+    /// Those of a number.
+    #[must_use]
+    pub fn of_number(number: i64) -> Option<Self> {
+        [Self::First, Self::Second].into_iter().find(|rules| rules.number() == number)
+    }
 }

@@ -3,6 +3,7 @@
 use super::Wanted;
 use super::axis::seconds_of;
 use super::calendar::{DAY, SECOND};
+use super::mend::{About, Mended, mend};
 use super::targets::NOBODY;
 use super::timing::is_midnight;
 
@@ -30,6 +31,48 @@ impl Rows {
         self.count += 1;
         if self.first.len() < super::Fault::KEPT {
             self.first.push(row);
+        }
+    }
+
+    /// Takes rows out that are counted elsewhere.
+    pub(crate) fn without(&mut self, rows: &[usize]) {
+        self.count = self.count.saturating_sub(rows.len());
+        self.first.retain(|row| !rows.contains(row));
+    }
+}
+
+impl Moments {
+    /// Mends them; what is told of doubles is told of their nanoseconds.
+    pub(crate) fn mended(&mut self, about: About<'_>) -> Mended {
+        match self {
+            Self::Exact(moments) => mend(moments, about),
+            Self::Float(seconds) => {
+                #[expect(clippy::cast_possible_truncation, reason = "saturates, and nanoseconds suffice")]
+                let ns = |s: &f64| if s.is_finite() { (s * 1e9) as i64 } else { UNREADABLE };
+                let mut moments: Vec<i64> = seconds.iter().map(ns).collect();
+                let mended = mend(&mut moments, About { wrap: None, ..about });
+                mended.wild.iter().for_each(|row| seconds[*row] = f64::NAN);
+                mended
+            }
+        }
+    }
+
+    /// The last first.
+    pub(crate) fn reverse(&mut self) {
+        match self {
+            Self::Exact(moments) => moments.reverse(),
+            Self::Float(seconds) => seconds.reverse(),
+        }
+    }
+}
+
+impl Ordered {
+    /// The last row first.
+    pub(crate) fn reverse(&mut self) {
+        let count = self.seconds.len();
+        self.seconds.reverse();
+        for rows in [&mut self.repeated, &mut self.backward, &mut self.unreadable] {
+            rows.first.iter_mut().for_each(|row| *row = count - 1 - *row);
         }
     }
 }

@@ -27,6 +27,8 @@ pub(crate) struct Quick<'a> {
     delimiter: u8,
     line_end: u8,
     quote: Option<u8>,
+    /// The first byte of what marks comments besides the usual.
+    mark: Option<u8>,
     roles: Vec<Role>,
     reading: &'a Reading,
     timing: Option<&'a Timing>,
@@ -61,7 +63,7 @@ impl<'a> Quick<'a> {
         counts: [usize; 2],
     ) -> Option<Self> {
         let Delimiter::Byte(delimiter) = layout.delimiter else { return None };
-        let apart = timing.is_some_and(|t| t.date_column.is_some());
+        let apart = timing.is_some_and(|t| !t.is_single());
         if reading.decimal_comma || counts != [slots.len(); 2] || apart {
             return None;
         }
@@ -75,7 +77,15 @@ impl<'a> Quick<'a> {
             (None, None) => Role::Other,
         };
         let roles = slots.iter().enumerate().map(role).collect();
-        Some(Self { delimiter, line_end: layout.line_end, quote: layout.quote, roles, reading, timing })
+        Some(Self {
+            delimiter,
+            line_end: layout.line_end,
+            quote: layout.quote,
+            mark: layout.mark.and_then(|m| m.bytes().first().copied()),
+            roles,
+            reading,
+            timing,
+        })
     }
 
     /// Reads the row at the start of `bytes` into `row` and gives its length with the line end; none where it is not a
@@ -86,7 +96,10 @@ impl<'a> Quick<'a> {
         let mut at = 0;
         let mut present = false;
         // A comment may stand after blanks.
-        if bytes.first().is_none_or(|b| matches!(b, b'#' | b'%' | b'/') || b.is_ascii_whitespace()) {
+        if bytes
+            .first()
+            .is_none_or(|b| matches!(b, b'#' | b'%' | b'/') || Some(*b) == self.mark || b.is_ascii_whitespace())
+        {
             return None;
         }
         let last = self.roles.len() - 1;
@@ -122,7 +135,7 @@ impl<'a> Quick<'a> {
                         if self.reading.is_marker(cell) {
                             row.missing.push(column);
                         }
-                    } else if let Some(super::stamp::Count::Exact(ns)) = self.timing?.read(cell, b"", false) {
+                    } else if let Some(super::stamp::Count::Exact(ns)) = self.timing?.read(|_| cell, false) {
                         row.moment = ns;
                         present = true;
                     } else {
@@ -246,7 +259,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn layout(quote: Option<u8>) -> Layout {
-        Layout { delimiter: Delimiter::Byte(b','), quote, line_end: b'\n' }
+        Layout { delimiter: Delimiter::Byte(b','), quote, line_end: b'\n', mark: None }
     }
 
     proptest! {
@@ -260,7 +273,7 @@ mod tests {
             let end = if crlf { "\r\n" } else { "\n" };
             let text: String = cells.chunks(3).map(|row| row.join(",") + end).collect();
             let reading = Reading::new(false, &["-5".into()]);
-            let timing = Timing { column: 0, date_column: None, format: TimeFormat::Seconds };
+            let timing = Timing::of(0, None, TimeFormat::Seconds);
             let slots = vec![None, Some(0), Some(1)];
             let plan = |quote, counts| Plan {
                 layout: layout(quote),
@@ -270,6 +283,11 @@ mod tests {
                 counts,
                 timing: Some(timing.clone()),
                 record_bytes: 10,
+                repeats: &[],
+                oddities: &[],
+                truths: Vec::new(),
+            late: &[],
+                footer: true,
             };
             let quote = quoted.then_some(b'"');
             let quick = parse_bytes(text.as_bytes(), 1, &plan(quote, [3, 3])).unwrap();
@@ -288,7 +306,7 @@ mod tests {
     #[test]
     fn quick_rows_are_taken_and_others_left() {
         let reading = Reading::new(false, &[]);
-        let timing = Timing { column: 0, date_column: None, format: TimeFormat::Iso };
+        let timing = Timing::of(0, None, TimeFormat::Iso);
         let quick = Quick::new(layout(None), &reading, Some(&timing), &[None, Some(0), None], [3, 3]).unwrap();
         let mut row = QuickRow { values: vec![0.0], ..QuickRow::default() };
         assert_eq!(quick.read(b"2019-11-11T17:57:05Z,-1.5,abc\r\nx", &mut row), Some(31));

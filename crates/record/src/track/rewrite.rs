@@ -175,14 +175,19 @@ impl<'a> Editor<'a> {
         decoded(&raw[inner(raw, self.layout.quote)], self.encoding).into_owned()
     }
 
-    fn number(&self, value: Option<f64>) -> Option<String> {
-        value.filter(|v| v.is_finite()).map(|v| self.reading.written(v).into_owned())
+    /// A value as the column writes it, in place of the cell `old`.
+    fn number(&self, column: usize, old: &str, value: Option<f64>) -> Option<String> {
+        let value = value.filter(|v| v.is_finite())?;
+        Some(match self.track.dialect.styles.get(column) {
+            Some(Some(style)) => style.written(value, old, &self.reading),
+            _ => self.reading.written(value).into_owned(),
+        })
     }
 
     fn changed(&self, record: &Record<'_>, spans: &[Span], changes: &[CellChange]) -> Vec<u8> {
         let mut edits: Vec<(usize, String)> = Vec::with_capacity(changes.len());
         for change in changes {
-            match self.number(change.value) {
+            match self.number(change.column, &self.cell(record, spans, change.column), change.value) {
                 Some(number) => edits.push((change.column, number)),
                 None if change.column < spans.len() => edits.push((change.column, self.nothing())),
                 // The cell of a short row has no value as it is.
@@ -195,7 +200,7 @@ impl<'a> Editor<'a> {
         if emptied && let Some((_, text)) = edits.first_mut() {
             NO_VALUE.clone_into(text);
         }
-        patched(record.bytes, spans, self.layout, &edits)
+        patched(record.bytes, spans, (self.layout, self.track.dialect.fixed_width), &edits)
     }
 
     fn nothing(&self) -> String {
@@ -207,6 +212,9 @@ impl<'a> Editor<'a> {
         let time = &self.track.time;
         let width = spans.len().max(new.cells.last().map_or(0, |(c, _)| c + 1));
         let text = |column: usize| {
+            if let Some(place) = time.part_columns.iter().position(|c| *c == column) {
+                return time.write_part(new.seconds, place, &self.cell(record, spans, column));
+            }
             if time.column == Some(column) {
                 return time.write_like(new.seconds, &self.time_sample);
             }
@@ -217,15 +225,21 @@ impl<'a> Editor<'a> {
                 return self.cell(record, spans, column);
             }
             let value = new.cells.iter().find(|(c, _)| *c == column).map(|(_, v)| *v);
-            self.number(value).unwrap_or_else(|| self.nothing())
+            self.number(column, "", value).unwrap_or_else(|| self.nothing())
         };
         let edits: Vec<(usize, String)> = (0..width).map(|c| (c, text(c))).collect();
-        patched(record.bytes, spans, self.layout, &edits)
+        patched(record.bytes, spans, (self.layout, self.track.dialect.fixed_width), &edits)
     }
 }
 
-/// `record` with the text of some cells replaced; quotes stay, and so does the width of cells padded with blanks.
-pub(super) fn patched(record: &[u8], spans: &[Span], layout: Layout, edits: &[(usize, String)]) -> Vec<u8> {
+/// `record` with the text of some cells replaced; quotes stay, and so does the width of cells padded with blanks (of all
+/// cells, where the table has a `fixed_width`).
+pub(super) fn patched(
+    record: &[u8],
+    spans: &[Span],
+    (layout, fixed_width): (Layout, bool),
+    edits: &[(usize, String)],
+) -> Vec<u8> {
     let mut line = Vec::with_capacity(record.len() + 16 * edits.len());
     let mut done = 0;
     let mut count = spans.len();
@@ -250,7 +264,7 @@ pub(super) fn patched(record: &[u8], spans: &[Span], layout: Layout, edits: &[(u
         let (start, end) = (span.start as usize + within.start, span.start as usize + within.end);
         let at = line.len() + span.start as usize - done;
         line.extend_from_slice(&record[done..start]);
-        align(&mut line, end - start, text.len());
+        align(&mut line, end - start, text.len(), fixed_width);
         let bare = span.of(record).trim_ascii().len() == end - start;
         // A quote is one at the start of a cell or after blanks, not after a stray carriage return.
         let padding = &span.of(record)[..within.start];
@@ -259,9 +273,20 @@ pub(super) fn patched(record: &[u8], spans: &[Span], layout: Layout, edits: &[(u
         }
         put(&mut line, text, layout, bare);
         done = end;
+        // What did not fit before the cell is taken from the blanks after it.
+        let longer = (line.len() + spans_start(record, done)).saturating_sub(record.len());
+        let room = record[done..].iter().take_while(|b| **b == b' ').count().saturating_sub(1);
+        if fixed_width && longer > 0 {
+            done += longer.min(room);
+        }
     }
     line.extend_from_slice(&record[done..]);
     line
+}
+
+/// Bytes of the record that are still to be written.
+fn spans_start(record: &[u8], done: usize) -> usize {
+    record.len() - done
 }
 
 /// Adds the text of a cell: in quotes where it has none yet and a decimal comma would part it.
@@ -280,9 +305,9 @@ fn wants_quotes(text: &str, layout: Layout) -> Option<u8> {
 }
 
 /// Keeps cells aligned to the right: takes or adds blanks before one whose length changes, where two or more are.
-fn align(line: &mut Vec<u8>, old: usize, new: usize) {
+fn align(line: &mut Vec<u8>, old: usize, new: usize, fixed_width: bool) {
     let blanks = line.iter().rev().take_while(|b| **b == b' ').count();
-    if blanks < 2 {
+    if blanks < 2 && !(fixed_width && new <= old) {
         return;
     }
     let wanted = (blanks + old).saturating_sub(new).max(1);
@@ -314,17 +339,17 @@ mod tests {
     fn only_the_changed_cells_change() {
         let text = "# c\ntime,x,who\r\n0, 1.50 ,\"a,b\"\n# between\n1,\"2.5\",c\n2,7,d";
         let changes = [(0, 1, Some(1.25)), (1, 1, Some(3.0)), (2, 1, None)];
-        let expected = "# c\ntime,x,who\r\n0, 1.25 ,\"a,b\"\n# between\n1,\"3\",c\n2,,d";
+        let expected = "# c\ntime,x,who\r\n0, 1.25 ,\"a,b\"\n# between\n1,\"3.00\",c\n2,,d";
         assert_eq!(rewritten(text, &changes, &[]), expected);
         assert_eq!(rewritten(text, &[(1, 1, None)], &[]), text.replace("\"2.5\"", "\"\""));
     }
 
     #[test]
     fn decimal_commas_and_widths_are_kept() {
-        assert_eq!(rewritten("t;x\n0;1,5\n1;2,5\n", &[(1, 1, Some(-0.25))], &[]), "t;x\n0;1,5\n1;-0,25\n");
+        assert_eq!(rewritten("t;x\n0;1,5\n1;2,5\n", &[(1, 1, Some(-0.5))], &[]), "t;x\n0;1,5\n1;-0,5\n");
         let wide = "time x y\n 0.0   1.5  7\n 1.0  22.5  8\n";
-        let expected = "time x y\n 0.0 -1.75  7\n 1.0   NaN  8\n";
-        assert_eq!(rewritten(wide, &[(0, 1, Some(-1.75)), (1, 1, None)], &[]), expected);
+        let expected = "time x y\n 0.0 -11.5  7\n 1.0   NaN  8\n";
+        assert_eq!(rewritten(wide, &[(0, 1, Some(-11.5)), (1, 1, None)], &[]), expected);
     }
 
     #[test]
@@ -337,25 +362,25 @@ mod tests {
     #[test]
     fn a_short_row_is_filled_up_to_the_cell() {
         let text = "time,x,y\n0,1,2\n1\n2,3,4\n";
-        assert_eq!(rewritten(text, &[(1, 2, Some(3.5))], &[]), "time,x,y\n0,1,2\n1,,3.5\n2,3,4\n");
+        assert_eq!(rewritten(text, &[(1, 2, Some(4.0))], &[]), "time,x,y\n0,1,2\n1,,4\n2,3,4\n");
         assert_eq!(rewritten(text, &[(1, 2, None)], &[]), text);
         let blanks = "time x y\n0 1 2\n1\n2 3 4\n";
-        assert_eq!(rewritten(blanks, &[(1, 2, Some(3.5))], &[]), "time x y\n0 1 2\n1 NaN 3.5\n2 3 4\n");
+        assert_eq!(rewritten(blanks, &[(1, 2, Some(4.0))], &[]), "time x y\n0 1 2\n1 NaN 4\n2 3 4\n");
     }
 
     #[test]
     fn new_rows_look_like_the_rows_before_them() {
         let text = "time,x,who\n0,1,a\r\n0.05,2,b\r\n0.15,3,c";
-        let new = [(1, 0.1, 1, 2.5), (2, 0.2, 1, 3.5)];
-        let expected = "time,x,who\n0,1,a\r\n0.05,2,b\r\n0.10,2.5,\r\n0.15,3,c\r\n0.20,3.5,";
+        let new = [(1, 0.1, 1, 7.0), (2, 0.2, 1, 8.0)];
+        let expected = "time,x,who\n0,1,a\r\n0.05,2,b\r\n0.10,7,\r\n0.15,3,c\r\n0.20,8,";
         assert_eq!(rewritten(text, &[], &new), expected);
         let text = "'when', x\n'2019-01-01 00:00', 1\n'2019-01-01 00:30', 3\n";
         let new = [(0, 900.0, 1, 2.0)];
         let expected = "'when', x\n'2019-01-01 00:00', 1\n'2019-01-01 00:15', 2\n'2019-01-01 00:30', 3\n";
         assert_eq!(rewritten(text, &[], &new), expected);
         let text = "Date;Time;x\n23.03.2005;23:00;1,5\n24.03.2005;01:00;2,5\n";
-        let new = [(0, 3600.0, 2, 2.25)];
-        let expected = "Date;Time;x\n23.03.2005;23:00;1,5\n24.03.2005;00:00;2,25\n24.03.2005;01:00;2,5\n";
+        let new = [(0, 3600.0, 2, 2.0)];
+        let expected = "Date;Time;x\n23.03.2005;23:00;1,5\n24.03.2005;00:00;2,0\n24.03.2005;01:00;2,5\n";
         assert_eq!(rewritten(text, &[], &new), expected);
     }
 
@@ -365,14 +390,14 @@ mod tests {
             let bom = [0xfe, 0xff];
             bom.into_iter().chain(text.encode_utf16().flat_map(u16::to_be_bytes)).collect()
         };
-        let cells = vec![CellChange { row: 0, column: 1, value: Some(1.5) }];
+        let cells = vec![CellChange { row: 0, column: 1, value: Some(5.0) }];
         let changes = Changes { cells, rows: Vec::new() };
         let mut out = Vec::new();
         rewrite(&track(&utf16("t,x°\n0,9\n1,2\n")), &changes, &mut out).unwrap();
-        assert_eq!(out, utf16("t,x°\n0,1.5\n1,2\n"));
+        assert_eq!(out, utf16("t,x°\n0,5\n1,2\n"));
         out.clear();
         rewrite(&track(b"t,x\xb0\n0,9\n1,2\n"), &changes, &mut out).unwrap();
-        assert_eq!(out, b"t,x\xb0\n0,1.5\n1,2\n");
+        assert_eq!(out, b"t,x\xb0\n0,5\n1,2\n");
     }
 
     #[test]

@@ -1,11 +1,15 @@
 //! What each column is read for.
 
-use super::body::Numbers;
+use super::body::{Numbers, truth};
 use super::head::Head;
 use super::sniff::{Look, look};
 use super::timing::Timing;
-use super::{ColumnKind, LoadOptions, names, printable, targets};
+use super::{Aside, ColumnKind, LoadOptions, Rules, names, printable, targets};
 use crate::error::{Error, Result};
+
+mod aside;
+
+pub(crate) use aside::{is_id_column, release};
 
 /// Which columns are parsed as numbers, and why.
 #[derive(Debug)]
@@ -20,6 +24,14 @@ pub(crate) struct Roles {
     pub(crate) track: Option<usize>,
     /// For each column, its kind by the first rows, for the columns that are not parsed.
     pub(crate) unread: Vec<ColumnKind>,
+    /// For each column, whether its cells are TRUE and FALSE.
+    pub(crate) truths: Vec<bool>,
+    /// For each column, texts that stand where its numbers have not begun.
+    pub(crate) late: Vec<Vec<String>>,
+    /// By which rules.
+    rules: Rules,
+    /// Rows of the sample.
+    rows: usize,
 }
 
 /// Gives each column its role.
@@ -34,7 +46,7 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
     channels.retain(|c| !std::mem::replace(&mut seen[*c], true));
     let truth = options.truth.as_ref().map(find).transpose()?;
     let track = targets::column(head, options)?;
-    let is_time = |c: usize| timing.is_some_and(|t| t.column == c || t.date_column == Some(c));
+    let is_time = |c: usize| timing.is_some_and(|t| t.has(c));
     let told = channels.iter().copied().find(|c| is_time(*c) || truth == Some(*c) || track == Some(*c));
     let twice = told.or(truth.filter(|t| is_time(*t) || track == truth)).or(track.filter(|t| is_time(*t)));
     if let Some(column) = twice {
@@ -48,7 +60,21 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
             "name other columns, or another time with --time",
         ));
     }
-    let unread: Vec<ColumnKind> = (0..head.names.len()).map(|c| kind_by_sample(head, c)).collect();
+    let kind = |c: usize| match kind_by_sample(head, c) {
+        ColumnKind::Text if options.rules == Rules::Second && holds_truths(head, c, false) => {
+            ColumnKind::Aside(Aside::Flag)
+        }
+        ColumnKind::Number if options.rules == Rules::Second && !is_time(c) => {
+            aside::by_sample(head, c, timing).map_or(ColumnKind::Number, ColumnKind::Aside)
+        }
+        kind => kind,
+    };
+    let late = late_markers(head, options, &is_time);
+    let mut unread: Vec<ColumnKind> = (0..head.names.len()).map(kind).collect();
+    if options.rules == Rules::Second {
+        aside::keep_one_channel(&mut unread, &is_time);
+    }
+    let truths: Vec<bool> = (0..head.names.len()).map(|c| holds_truths(head, c, truth == Some(c))).collect();
     let wanted = |c: usize| {
         if is_time(c) || track == Some(c) {
             false
@@ -56,8 +82,10 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
             true
         } else if channels.is_empty() {
             matches!(unread[c], ColumnKind::Number | ColumnKind::Empty)
+                || !late[c].is_empty()
+                || (truths[c] && names::is_truth(&head.names[c]))
         } else {
-            channels.contains(&c) || (names::is_truth(&head.names[c]) && unread[c] == ColumnKind::Number)
+            channels.contains(&c) || (names::is_truth(&head.names[c]) && (truths[c] || unread[c] == ColumnKind::Number))
         }
     };
     let mut next = 0;
@@ -67,7 +95,17 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
             next - 1
         })
     });
-    Ok(Roles { slots: slots.collect(), channels: (!channels.is_empty()).then_some(channels), truth, track, unread })
+    Ok(Roles {
+        slots: slots.collect(),
+        channels: (!channels.is_empty()).then_some(channels),
+        truth,
+        track,
+        truths,
+        late,
+        rules: options.rules,
+        rows: head.sample.len(),
+        unread,
+    })
 }
 
 impl Roles {
@@ -76,15 +114,49 @@ impl Roles {
         let told = self.channels.as_ref().is_some_and(|c| c.contains(&index));
         let all_bits = || numbers.values.iter().all(|v| v.is_nan() || *v == 0.0 || *v == 1.0);
         if numbers.present == 0 {
-            if numbers.unreadable.count > 0 { ColumnKind::Text } else { ColumnKind::Empty }
+            let text = numbers.unreadable.count > 0 || self.late.get(index).is_some_and(|l| !l.is_empty());
+            if text && self.truths.get(index) == Some(&true) {
+                return ColumnKind::Aside(Aside::Flag);
+            }
+            if text { ColumnKind::Text } else { ColumnKind::Empty }
         } else if numbers.unreadable.count > numbers.present && !told {
             ColumnKind::Text
         } else if !told && names::is_truth(name) && numbers.unreadable.count == 0 && all_bits() {
             ColumnKind::Truth
+        } else if self.rules == Rules::Second && !told {
+            aside::by_values(name, &numbers.values, self.rows).map_or(ColumnKind::Number, ColumnKind::Aside)
         } else {
             ColumnKind::Number
         }
     }
+}
+
+/// For each column whose sampled cells are one text or two, these: its numbers may begin further on.
+fn late_markers(head: &Head, options: &LoadOptions, is_time: &impl Fn(usize) -> bool) -> Vec<Vec<String>> {
+    let of = |column: usize| {
+        let mut texts: Vec<String> = Vec::new();
+        if options.rules == Rules::First || is_time(column) || head.sample.len() < 8 {
+            return texts;
+        }
+        for cell in head.column(column) {
+            match look(cell.as_bytes(), &head.reading) {
+                Look::Empty => {}
+                Look::Text if texts.iter().any(|t| t == cell) => {}
+                Look::Text if texts.len() < 2 => texts.push(cell.to_owned()),
+                _ => return Vec::new(),
+            }
+        }
+        texts
+    };
+    (0..head.names.len()).map(of).collect()
+}
+
+/// True for a column of TRUE and FALSE; where the user says that it is one of truths, for any words.
+fn holds_truths(head: &Head, column: usize, told: bool) -> bool {
+    let cells = head.column(column);
+    let filled: Vec<&&str> = cells.iter().filter(|c| !head.reading.is_marker(c.as_bytes())).collect();
+    let word = |c: &&&str| truth(c.as_bytes()).is_some() && (told || c.len() > 1);
+    !filled.is_empty() && filled.iter().all(word)
 }
 
 fn kind_by_sample(head: &Head, column: usize) -> ColumnKind {

@@ -4,7 +4,7 @@ use super::cells::Cells;
 use super::feed::Feed;
 use super::head::open_quote;
 use super::text::{Stored, Text, path_of, sha256, stored};
-use super::tokens::{Layout, OpenQuote, Record, RecordKind, Records, Span, is_empty, line_end_of, split};
+use super::tokens::{Layout, OpenQuote, Record, RecordKind, Records, Span, line_end_of, split};
 use super::{Dialect, Extent, Track, Wanted};
 use crate::error::{Error, Result};
 
@@ -55,7 +55,7 @@ pub(crate) fn text_of<'a>(track: &Track, stored: &'a [u8]) -> Result<Text<'a>> {
 impl Dialect {
     /// How `body` falls into records and cells.
     pub(crate) fn layout(&self, body: &[u8]) -> Layout {
-        Layout { delimiter: self.delimiter, quote: self.quote, line_end: line_end_of(body) }
+        Layout { delimiter: self.delimiter, quote: self.quote, line_end: line_end_of(body), mark: self.rows.mark }
     }
 
     /// What `read` makes of the cells of one record, which starts in `line` (from 1) and comes without its line end.
@@ -85,17 +85,17 @@ impl Splitter {
     }
 }
 
-/// Tells the data rows among records.
-struct Walk {
-    /// Lines before the first data row that are still to come.
-    before: usize,
+/// Tells the data rows among the records from the first row on.
+struct Walk<'t> {
+    /// Lines that are no rows.
+    repeats: &'t [Vec<u8>],
     row: usize,
     splitter: Splitter,
 }
 
-impl Walk {
-    fn new(track: &Track, layout: Layout) -> Self {
-        Self { before: track.dialect.preamble, row: 0, splitter: Splitter::new(layout) }
+impl<'t> Walk<'t> {
+    fn new(track: &'t Track, layout: Layout) -> Self {
+        Self { repeats: &track.dialect.rows.repeats, row: 0, splitter: Splitter::new(layout) }
     }
 
     /// Calls `f` with a record if it is a data row; false when no more are wanted.
@@ -104,17 +104,11 @@ impl Walk {
         record: &Record<'a>,
         f: &mut impl FnMut(usize, &Record<'a>, &mut Splitter) -> Result<bool>,
     ) -> Result<bool> {
-        if record.kind != RecordKind::Data {
+        let repeats = self.repeats;
+        if record.kind != RecordKind::Data
+            || (!repeats.is_empty() && repeats.iter().any(|r| r == record.bytes.trim_ascii()))
+        {
             return Ok(true);
-        }
-        // Empty rows before the first data row belong to what stands before it.
-        if self.row == 0 {
-            let layout = self.splitter.layout;
-            let empty = is_empty(record.bytes, self.splitter.cells(record), layout);
-            if self.before > 0 || empty {
-                self.before -= usize::from(!empty);
-                return Ok(true);
-            }
         }
         let more = f(self.row, record, &mut self.splitter)?;
         self.row += 1;
@@ -133,7 +127,8 @@ pub(crate) fn walk<'a>(
 ) -> Result<()> {
     let layout = track.dialect.layout(text.body()).without_idle_quote(text.body());
     let mut walk = Walk::new(track, layout);
-    for record in Records::new(text.body(), layout) {
+    let at = &track.dialect.rows;
+    for record in Records::from(text.body(), layout, at.start, at.line) {
         if walk.row == track.rows {
             break;
         }
@@ -155,10 +150,14 @@ pub(crate) fn walk_feed(
     mut f: impl FnMut(usize, &Record<'_>, &mut Splitter) -> Result<bool>,
 ) -> Result<()> {
     const PIECE: usize = 1 << 20;
-    let Dialect { delimiter, quote, .. } = track.dialect;
-    let layout = Layout { delimiter, quote, line_end: feed.line_end() };
+    let Dialect { delimiter, quote, .. } = &track.dialect;
+    let (delimiter, quote) = (*delimiter, *quote);
+    let at = &track.dialect.rows;
+    let layout = Layout { delimiter, quote, line_end: feed.line_end(), mark: at.mark };
+    feed.peek(at.start).map_err(|_| unreadable(track))?;
+    feed.skip(at.start);
     let mut walk = Walk::new(track, layout);
-    let (mut piece, mut lines, mut last) = (Vec::new(), 0, false);
+    let (mut piece, mut lines, mut last) = (Vec::new(), at.line.saturating_sub(1), false);
     while !last {
         let mut next = Vec::new();
         last = feed.next(&mut next, PIECE).map_err(|_| unreadable(track))?;

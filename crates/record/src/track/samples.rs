@@ -52,7 +52,16 @@ impl Channel {
     #[must_use]
     pub fn series<'a>(&'a self, time: &'a TimeAxis) -> Series<'a> {
         match &self.target {
+            None if time.newest_first => {
+                let n = time.seconds.len().min(self.values.len());
+                #[expect(clippy::cast_possible_truncation, reason = "the loader refuses files of 2^32 rows and more")]
+                Series::of_pairs((0..n).rev().map(|row| (row as u32, self.values[row])), &time.seconds)
+            }
             None => Series::new(&time.seconds, &self.values),
+            Some(target) if time.newest_first => {
+                let pairs = target.rows.iter().copied().zip(self.values.iter().copied()).rev();
+                Series::of_pairs(pairs, &time.seconds)
+            }
             Some(target) => Series::of_rows(&target.rows, &time.seconds, &self.values),
         }
     }
@@ -60,7 +69,7 @@ impl Channel {
     /// Times of the first and the last present sample, in seconds; none when there is none.
     #[must_use]
     pub fn ends(&self, time: &TimeAxis) -> Option<(f64, f64)> {
-        if self.target.is_some() {
+        if self.target.is_some() || time.newest_first {
             let series = self.series(time);
             return series.t.first().copied().zip(series.t.last().copied());
         }
@@ -82,6 +91,9 @@ mod tests {
             name: String::new(),
             column: None,
             date_column: None,
+            part_columns: Vec::new(),
+            zone: None,
+            newest_first: false,
             format: TimeFormat::SampleNumber,
             origin_ns: 0,
             seconds: vec![f64::NAN, 1.0, 2.0, 4.0],

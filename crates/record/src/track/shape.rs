@@ -28,8 +28,164 @@ pub(crate) fn refuse_other_formats(body: &[u8], path: &Path) -> Result<()> {
         [b'<', ..] => refuse("markup (XML or HTML), not a table", "export the record as CSV"),
         [b'{', ..] => refuse("JSON, not a table", "export the record as CSV, one row for each time"),
         [b'P', b'K', 3, 4, ..] => refuse("a zip archive (or a spreadsheet)", "unpack it, or export the sheet as CSV"),
+        _ if start.starts_with(b"ply") || start.starts_with(b"solid ") => {
+            refuse("a mesh, not a table", "export the record as CSV")
+        }
         _ => Ok(()),
     }
+}
+
+/// A kind of file that is no text: how its bytes begin (after so many others), what it is, and what converts it.
+struct Binary {
+    at: usize,
+    begins: &'static [u8],
+    name: &'static str,
+    help: &'static str,
+}
+
+/// What analysts have besides text.
+const BINARIES: [Binary; 22] = [
+    Binary {
+        at: 0,
+        begins: b"PK\x03\x04",
+        name: "a zip archive or a spreadsheet (xlsx, ods)",
+        help: "unpack it, or export the sheet as CSV (soffice --convert-to csv FILE)",
+    },
+    Binary {
+        at: 0,
+        begins: b"\xd0\xcf\x11\xe0",
+        name: "a spreadsheet of old Excel (xls)",
+        help: "export the sheet as CSV: soffice --convert-to csv FILE",
+    },
+    Binary {
+        at: 0,
+        begins: b"PAR1",
+        name: "a Parquet file",
+        help: "write it as CSV: duckdb -c \"copy (from 'FILE') to 'OUT.csv'\"",
+    },
+    Binary {
+        at: 0,
+        begins: b"ARROW1",
+        name: "an Arrow (Feather) file",
+        help: "write it as CSV, in Python: pandas.read_feather('FILE').to_csv('OUT.csv')",
+    },
+    Binary {
+        at: 0,
+        begins: b"\x89HDF\r\n\x1a\n",
+        name: "an HDF5 file (NetCDF-4 and MAT 7.3 are such files, too)",
+        help: "write the variables as CSV: h5dump -d /NAME FILE, or ncdump -v NAME FILE",
+    },
+    Binary {
+        at: 0,
+        begins: b"CDF\x01",
+        name: "a NetCDF file",
+        help: "write its variables as text: ncdump -v NAME FILE, or in Python: xarray.open_dataset('FILE').to_dataframe().to_csv('OUT.csv')",
+    },
+    Binary {
+        at: 0,
+        begins: b"CDF\x02",
+        name: "a NetCDF file",
+        help: "write its variables as text: ncdump -v NAME FILE, or in Python: xarray.open_dataset('FILE').to_dataframe().to_csv('OUT.csv')",
+    },
+    Binary {
+        at: 0,
+        begins: b"MATLAB 5.0 MAT-file",
+        name: "a MAT file (version 5)",
+        help: "write the variable as CSV, in Matlab: writematrix(x, 'OUT.csv'); in Python: scipy.io.loadmat",
+    },
+    Binary {
+        at: 0,
+        begins: b"TDSm",
+        name: "a TDMS file of LabVIEW",
+        help: "write it as CSV, in Python: nptdms.TdmsFile('FILE').as_dataframe().to_csv('OUT.csv')",
+    },
+    Binary {
+        at: 0,
+        begins: b"ULog\x01\x12\x35",
+        name: "a flight log of PX4 (ULog)",
+        help: "write it as CSV files: ulog2csv FILE (pip install pyulog)",
+    },
+    Binary {
+        at: 0,
+        begins: b"\x89MCAP0\r\n",
+        name: "an MCAP recording",
+        help: "write a topic as CSV with the tools of its makers: mcap cat --topics TOPIC --json FILE",
+    },
+    Binary {
+        at: 0,
+        begins: b"#ROSBAG V",
+        name: "a ROS bag",
+        help: "write a topic as CSV: rostopic echo -b FILE -p /TOPIC > OUT.csv",
+    },
+    Binary {
+        at: 0,
+        begins: b"SQLite format 3\0",
+        name: "an SQLite database (ROS 2 bags are such files, too)",
+        help: "write a table as CSV: sqlite3 -header -csv FILE 'select * from TABLE' > OUT.csv",
+    },
+    Binary {
+        at: 0,
+        begins: b"\xa3\x95\x80",
+        name: "a binary flight log of ArduPilot",
+        help: "write it as text: mavlogdump.py --types GPS --format csv FILE > OUT.csv (pip install pymavlink)",
+    },
+    Binary {
+        at: 0,
+        begins: b"MDF     ",
+        name: "an MDF file of measurements (mf4)",
+        help: "write it as CSV, in Python: asammdf.MDF('FILE').export('csv')",
+    },
+    Binary {
+        at: 0,
+        begins: b"\xb5\x62",
+        name: "messages of a u-blox receiver (UBX)",
+        help: "convert them first: convbin or pyubx2 (gnssdump FILE)",
+    },
+    Binary { at: 0, begins: b"\x28\xb5\x2f\xfd", name: "a file packed by zstd", help: "unpack it: zstd -d FILE" },
+    Binary { at: 0, begins: b"\xfd7zXZ\0", name: "a file packed by xz", help: "unpack it: unxz -k FILE" },
+    Binary { at: 0, begins: b"BZh", name: "a file packed by bzip2", help: "unpack it: bunzip2 -k FILE" },
+    Binary { at: 0, begins: b"7z\xbc\xaf\x27\x1c", name: "a 7z archive", help: "unpack it: 7z x FILE" },
+    Binary {
+        at: 0,
+        begins: b"%PDF-",
+        name: "a PDF document",
+        help: "export the record as CSV from where it was printed",
+    },
+    Binary {
+        at: 8,
+        begins: b".FIT",
+        name: "a FIT file of a sports watch",
+        help: "convert it: gpsbabel -i garmin_fit -f FILE -o unicsv -F OUT.csv",
+    },
+];
+
+/// ASTERIX: a category, a length of two bytes that leads to the next category, and no text.
+fn is_asterix(bytes: &[u8]) -> bool {
+    let [category, high, low, ..] = bytes else { return false };
+    let length = usize::from(*high) << 8 | usize::from(*low);
+    let next = bytes.get(length);
+    let known = |c: &u8| matches!(c, 1 | 2 | 8 | 10 | 11 | 19 | 20 | 21 | 23 | 30 | 34 | 48 | 62 | 65 | 247);
+    known(category)
+        && length > 5
+        && (next.is_some_and(known) || bytes.len() == length)
+        && bytes[..bytes.len().min(64)].contains(&0)
+}
+
+/// Refuses what is no text by its name, from its first bytes as they are stored.
+///
+/// # Errors
+/// [`Error::Input`] naming what it is and what converts it.
+pub(crate) fn refuse_binaries(stored: &[u8], path: &Path) -> Result<()> {
+    let found = BINARIES.iter().find(|b| stored.get(b.at..).is_some_and(|s| s.starts_with(b.begins)));
+    if let Some(binary) = found {
+        return Err(Error::input(path, format!("{}, not a table of text", binary.name), binary.help));
+    }
+    if is_asterix(stored) {
+        let help =
+            "convert it first, for example with asterix (pip install asterix_decoder), and write the plots as CSV";
+        return Err(Error::input(path, "radar messages (ASTERIX), not a table of text", help));
+    }
+    Ok(())
 }
 
 /// Five letters or digits and a comma: talker and kind of an NMEA 0183 sentence.
@@ -70,6 +226,22 @@ pub(crate) fn refuse_long_form(head: &Head, path: &Path) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn files_that_are_no_text_are_named_with_what_converts_them() {
+        for binary in &BINARIES {
+            let mut bytes = vec![b'x'; binary.at];
+            bytes.extend_from_slice(binary.begins);
+            let e = refuse_binaries(&bytes, Path::new("x")).unwrap_err().to_string();
+            assert!(e.contains(binary.name) && e.contains(binary.help), "{e}");
+        }
+        // Two records of category 48 of eight bytes each.
+        let asterix = [48, 0, 8, 0xfd, 1, 2, 0, 3, 48, 0, 8, 0xfd, 1, 2, 0, 4];
+        assert!(refuse_binaries(&asterix, Path::new("x")).unwrap_err().to_string().contains("ASTERIX"));
+        for text in [&b"time,x\n0,1\n"[..], b"0\t1\n", b"# c\n", b"", b"\x1f\x8b\x08"] {
+            assert!(refuse_binaries(text, Path::new("x")).is_ok());
+        }
+    }
 
     #[test]
     fn other_formats_are_named() {

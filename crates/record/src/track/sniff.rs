@@ -3,6 +3,9 @@
 use memchr::memchr;
 
 use super::number::{Cell, Reading};
+use super::odd::{Oddity, odd};
+use super::time::{DateOrder, fields};
+use super::tokens::Mark;
 use super::tokens::{Layout, RecordKind, Records, inner, kind_of, line_end_of, split};
 use super::{Delimiter, LoadOptions, stamp};
 
@@ -31,17 +34,27 @@ pub(crate) fn look(cell: &[u8], reading: &Reading) -> Look {
         Cell::Number(_) | Cell::Infinite => Look::Number,
         Cell::Missing => Look::Empty,
         Cell::Text if stamp::iso(cell).is_some() || stamp::clock(cell).is_some() => Look::Time,
-        Cell::Text if stamp::year_last_parts(cell).is_some() => Look::Time,
+        Cell::Text if [true, false].iter().any(|first| stamp::year_last(cell, *first).is_some()) => Look::Time,
+        Cell::Text if is_stamp(cell) => Look::Time,
+        Cell::Text if odd(cell, reading.decimal_comma).is_some() => Look::Number,
         Cell::Text => Look::Text,
     }
+}
+
+/// True for a time in any spelling.
+fn is_stamp(cell: &[u8]) -> bool {
+    let digits = cell.iter().any(u8::is_ascii_digit);
+    let told = |o| fields(cell, o).and_then(|p| p.told(cell));
+    digits && cell.len() > 4 && DateOrder::ALL.into_iter().any(|o| told(o).is_some())
 }
 
 /// How the cells of `body` are laid out, and whether they use a decimal comma. What the options tell is taken.
 pub(crate) fn sniff(body: &[u8], options: &LoadOptions) -> (Layout, bool) {
     let line_end = line_end_of(body);
-    let sample = sample_of(body, line_end);
+    let mark = options.comment.as_ref().and_then(|text| Mark::new(text.as_bytes()));
+    let sample = sample_of(body, line_end, mark);
     let quote = options.quotes.unwrap_or(true).then_some(b'"');
-    let mut layout = Layout { delimiter: Delimiter::Byte(b','), quote, line_end };
+    let mut layout = Layout { delimiter: Delimiter::Byte(b','), quote, line_end, mark };
     layout.delimiter = options.delimiter.unwrap_or_else(|| best_delimiter(sample, layout));
     if quote.is_some() && single_quoted(sample, layout) {
         layout.quote = Some(b'\'');
@@ -52,20 +65,48 @@ pub(crate) fn sniff(body: &[u8], options: &LoadOptions) -> (Layout, bool) {
     (layout, decimal_comma)
 }
 
-/// The head of `body` after its comments, cut at a line end.
-fn sample_of(body: &[u8], line_end: u8) -> &[u8] {
+/// The head of `body` after its comments, cut at a line end; the lines with the most digits, where text of any length
+/// stands before them.
+fn sample_of(body: &[u8], line_end: u8, mark: Option<Mark>) -> &[u8] {
     let mut body = body;
     // Some instruments write their whole configuration as comments before the first row.
     while let Some(at) = memchr(line_end, body)
-        && kind_of(&body[..at]) != RecordKind::Data
+        && kind_of(&body[..at], mark) != RecordKind::Data
     {
         body = &body[at + 1..];
     }
+    let start = digits_start(body, line_end);
+    let body = &body[start..];
     if body.len() <= SAMPLE_BYTES {
         return body;
     }
     let head = &body[..SAMPLE_BYTES];
     head.iter().rposition(|b| *b == line_end).map_or(head, |at| &head[..=at])
+}
+
+/// Where the longest run of lines that hold many digits begins, if much text stands before it; else 0.
+fn digits_start(body: &[u8], line_end: u8) -> usize {
+    const LOOKED_AT: usize = 1 << 20;
+    /// Fewer lines are a header, and are looked at with the rows.
+    const FEW: usize = 8;
+    let (mut best, mut run): ((usize, usize, usize), (usize, usize, usize)) = ((0, 0, 0), (0, 0, 0));
+    let mut at = 0;
+    for (number, line) in body[..body.len().min(LOOKED_AT)].split(|b| *b == line_end).enumerate() {
+        let digits = line.iter().filter(|b| b.is_ascii_digit()).count();
+        let filled = line.iter().filter(|b| !b.is_ascii_whitespace()).count();
+        if digits * 4 >= filled && digits > 0 {
+            run = if run.2 == 0 { (at, number, 1) } else { (run.0, run.1, run.2 + 1) };
+            best = if run.2 > best.2 { run } else { best };
+        } else if filled > 0 {
+            run = (0, 0, 0);
+        }
+        at += line.len() + 1;
+        // A run that began early and goes on is that of the table.
+        if best.1 <= FEW && best.2 >= 100 {
+            return 0;
+        }
+    }
+    if best.1 > FEW && best.2 > 2 || best.2 > 2 && best.1 >= best.2 { best.0 } else { 0 }
 }
 
 /// Calls `f` with the cells of each data record of the sample.
@@ -105,7 +146,9 @@ fn fitness(sample: &[u8], layout: Layout) -> f64 {
             let cell = &raw[inner(raw, layout.quote)];
             let comma_fits = layout.delimiter != Delimiter::Byte(b',') && look(cell, &comma) != Look::Text;
             cells_seen += 1.0;
+            let unparted = glued(cell, layout.delimiter);
             cells_read += match look(cell, &point) {
+                _ if unparted => 0.0,
                 Look::Text if !comma_fits => 0.0,
                 // Many empty cells speak for a delimiter less than many numbers do.
                 Look::Empty => 0.5,
@@ -121,6 +164,11 @@ fn fitness(sample: &[u8], layout: Layout) -> f64 {
     let consistency = times as f64 / counts.len() as f64;
     // Text columns alone must not make a fit look like none.
     consistency * (0.05 + cells_read / cells_seen)
+}
+
+/// A cell that would be parted better: a number of several that commas and blanks part.
+fn glued(cell: &[u8], delimiter: Delimiter) -> bool {
+    delimiter == Delimiter::Blanks && cell.iter().filter(|b| **b == b',').count() > 1
 }
 
 /// The most frequent of `counts`, the larger of two equally frequent ones, and how often it comes.
@@ -151,9 +199,18 @@ fn has_decimal_commas(sample: &[u8], layout: Layout) -> bool {
     for_records(sample, layout, |cells| {
         for raw in cells {
             let cell = &raw[inner(raw, layout.quote)];
-            if cell.contains(&b',') && comma.number(cell).is_some() {
+            if !cell.contains(&b',') && !cell.contains(&b'.') {
+                continue;
+            }
+            let reads = |reading: &Reading, decimal_comma| {
+                reading.number(cell).is_some()
+                    || odd(cell, decimal_comma).is_some_and(|o| o.oddity != Oddity::Hexadecimal)
+            };
+            let (comma_fits, point_fits) = (reads(&comma, true), reads(&point, false));
+            if comma_fits && (!point_fits || !cell.contains(&b'.')) && cell.contains(&b',') {
+                // `1,234` says nothing where points are decimal ones as well.
                 commas += 1;
-            } else if cell.contains(&b'.') && point.number(cell).is_some() {
+            } else if point_fits && cell.contains(&b'.') {
                 points += 1;
             }
         }

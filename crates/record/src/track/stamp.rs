@@ -53,7 +53,7 @@ fn decimal(text: &[u8], unit_ns: i64, point: u8) -> Option<i64> {
 }
 
 #[inline]
-fn integer(digits: &[u8]) -> Option<i64> {
+pub(super) fn integer(digits: &[u8]) -> Option<i64> {
     if digits.is_empty() || digits.len() > 19 {
         return None;
     }
@@ -115,7 +115,13 @@ fn moment(date: Date, rest: &[u8]) -> Option<i64> {
     };
     let zone_at = rest.iter().position(|b| matches!(b, b'Z' | b'z' | b'+' | b'-' | b'U' | b' ')).unwrap_or(rest.len());
     let (time, zone) = rest.split_at(zone_at);
-    midnight.checked_add(clock(time)?)?.checked_sub(offset(zone.trim_ascii_start())?)
+    midnight.checked_add(clock(time).or_else(|| end_of_day(time))?)?.checked_sub(offset(zone.trim_ascii_start())?)
+}
+
+/// `24:00` and `24:00:00` are the midnight that ends a day.
+fn end_of_day(time: &[u8]) -> Option<i64> {
+    let rest = time.strip_prefix(b"24:00")?;
+    rest.iter().all(|b| matches!(b, b':' | b'0' | b'.')).then_some(DAY)
 }
 
 /// `17:57:05.25`, `17:57`, `7:05`: nanoseconds since midnight. A 60th second is the first of the next minute.
@@ -140,7 +146,7 @@ pub(crate) fn clock(text: &[u8]) -> Option<i64> {
 }
 
 /// Decimals of a second; those after the ninth are cut off.
-fn fraction_ns(digits: &[u8]) -> Option<i64> {
+pub(super) fn fraction_ns(digits: &[u8]) -> Option<i64> {
     if !digits.iter().all(u8::is_ascii_digit) {
         return None;
     }
@@ -204,11 +210,12 @@ mod tests {
             ("2010-11-02 03:00:13 -0830", "2010-11-02T03:00:13-08:30"),
             ("1969/12/31 23:59:59.5 UTC", "1969-12-31T23:59:59.5Z"),
             ("1999-03-17", "1999-03-17T00:00:00Z"),
+            ("1999-03-17 24:00", "1999-03-18T00:00:00Z"),
         ] {
             let expected = rfc.parse::<jiff::Timestamp>().unwrap().as_nanosecond();
             assert_eq!(iso(text.as_bytes()).map(i128::from), Some(expected), "{text}");
         }
-        for bad in ["2019-02-29", "2019-01-01T", "2019-01-01 24:00", "2019-01-01x", "2019-1-1", "2019-01/01", ""] {
+        for bad in ["2019-02-29", "2019-01-01T", "2019-01-01 24:01", "2019-01-01x", "2019-1-1", "2019-01/01", ""] {
             assert_eq!(iso(bad.as_bytes()), None, "{bad}");
         }
     }

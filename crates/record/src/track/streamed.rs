@@ -73,7 +73,7 @@ fn checked(
         feed.skip(mark);
         Ok(feed)
     };
-    understood.track(source, stored, parsed, (options, wanted), &again).map_err(|_| UNFIT)
+    understood.track(source, stored, parsed, wanted, &again).map_err(|_| UNFIT)
 }
 
 /// What the head tells, and the bytes of the byte order mark and of what stands before the rows.
@@ -98,7 +98,7 @@ fn understood(
         check.of(lines).map_err(Failure::Unfit)?;
         let text = Text::part(lines, encoding, gzip);
         let understood = Understood::of(&text, options, path).map_err(|_| UNFIT)?;
-        if understood.head.needs_no_more(text.body()) {
+        if understood.head.data_end.is_none() && understood.head.needs_no_more(text.body()) {
             let before = understood.head.data_start;
             return Ok((understood, [lines.len() - text.body().len(), before]));
         }

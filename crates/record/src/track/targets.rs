@@ -9,9 +9,10 @@ use std::sync::Arc;
 
 use super::head::Head;
 use super::load::Again;
+use super::order::{Moments, UNREADABLE};
 use super::text::{decoded, path_of};
 use super::tokens::inner;
-use super::{Channel, ColumnKind, LoadOptions, Track, names, printable, rows};
+use super::{Channel, ColumnKind, LoadOptions, Rules, Track, names, printable, rows};
 use crate::error::{Error, Result, nearest};
 
 /// More targets than this are no targets: a time or a measurement was named.
@@ -53,14 +54,119 @@ pub(crate) fn column(head: &Head, options: &LoadOptions) -> Result<Option<usize>
 /// [`Error::Usage`] for a name that is not there.
 pub(crate) fn base(head: &Head, options: &LoadOptions, name: &str) -> Result<usize> {
     let found = names::find(head.names.iter().map(String::as_str), name);
-    if found.is_ok() || options.track.is_none() {
+    if found.is_ok() || (options.track.is_none() && options.rules == Rules::First) {
         return found;
     }
     let parts = name.char_indices().filter(|(_, c)| *c == AT).map(|(at, _)| &name[..at]);
     parts.filter_map(|part| head.names.iter().position(|n| n == part)).next_back().map_or(found, Ok)
 }
 
+/// The column that tells tracks apart, where times go forward under it and do not without it. Its kind is that of a
+/// track column then, and the record says so.
+///
+/// # Errors
+/// What a walk over the rows gives.
+pub(super) fn recognised(
+    track: &mut Track,
+    moments: Option<&Moments>,
+    again: Again<'_>,
+    head: &Head,
+) -> Result<Option<usize>> {
+    let Some(Moments::Exact(moments)) = moments else { return Ok(None) };
+    let lost = behind(moments.iter()).min(behind(moments.iter().rev()));
+    if lost * 20 <= moments.len() || moments.len() < 8 {
+        return Ok(None);
+    }
+    let most = lost * 5 > moments.len() * 2;
+    for column in candidates(track, head, most) {
+        let Ok(targets) = Targets::read(track, column, again, head) else { continue };
+        let count = targets.ids.len();
+        // Hardly a row is alone under its id.
+        if count < 2 || count * 3 > moments.len() || targets.in_small_ones(3) * 20 > moments.len() {
+            continue;
+        }
+        let forward = targets.in_order(moments, false).max(targets.in_order(moments, true));
+        if forward * 20 >= (moments.len() - count) * 19 {
+            let name = printable(&head.names[column]);
+            track.columns[column].kind = ColumnKind::Track;
+            track.channels.retain(|c| c.column != column);
+            track.notes.push(format!(
+                "`{name}` tells {count} tracks apart, under which times go forward: each is judged by itself (--track names \
+                 another column)"
+            ));
+            return Ok(Some(column));
+        }
+    }
+    Ok(None)
+}
+
+/// Rows whose moment is not after all before it.
+fn behind<'a>(moments: impl Iterator<Item = &'a i64>) -> usize {
+    let mut last = i64::MIN;
+    let mut lost = 0;
+    for moment in moments.filter(|m| **m != UNREADABLE) {
+        if *moment > last {
+            last = *moment;
+        } else {
+            lost += 1;
+        }
+    }
+    lost
+}
+
+/// Columns that may tell tracks apart: those with the name of an id, then texts and whole numbers of which there are few.
+/// Numbers that are no ids by their names only where `most` of the rows would be lost otherwise.
+fn candidates(track: &Track, head: &Head, most: bool) -> Vec<usize> {
+    let few = |c: usize| {
+        let mut cells = head.column(c);
+        let rows = cells.len();
+        let short = cells.iter().all(|cell| cell.len() <= 40 && !cell.contains('.'));
+        cells.sort_unstable();
+        cells.dedup();
+        short && cells.len() * 3 <= rows.max(3)
+    };
+    let named = |c: &usize| super::roles::is_id_column(&head.names[*c]);
+    let fits = |c: &usize| {
+        let kind = track.columns[*c].kind;
+        named(c) && !matches!(kind, ColumnKind::Time | ColumnKind::Empty)
+            || (kind == ColumnKind::Text || (most && kind == ColumnKind::Number)) && few(*c)
+    };
+    let mut found: Vec<usize> = (0..track.columns.len()).filter(fits).collect();
+    found.sort_by_key(|c| (!named(c), *c));
+    found.truncate(8);
+    found
+}
+
 impl Targets {
+    /// How many rows have a moment after that of the row before of the same target; `back` reads from the end.
+    fn in_order(&self, moments: &[i64], back: bool) -> usize {
+        let mut lasts: Vec<Option<i64>> = vec![None; self.ids.len()];
+        let mut count = 0;
+        let rows: Box<dyn Iterator<Item = usize>> =
+            if back { Box::new((0..moments.len()).rev()) } else { Box::new(0..moments.len()) };
+        for row in rows {
+            let moment = moments[row];
+            let Some(last) = self.of_row.get(row).and_then(|t| lasts.get_mut(*t as usize)) else { continue };
+            if moment == UNREADABLE {
+                continue;
+            }
+            count += usize::from(last.is_some_and(|last| moment > last));
+            *last = Some(moment);
+        }
+        count
+    }
+
+    /// Rows of targets that have fewer than `least`.
+    fn in_small_ones(&self, least: usize) -> usize {
+        let mut counts = vec![0; self.ids.len()];
+        for target in &self.of_row {
+            if let Some(count) = counts.get_mut(*target as usize) {
+                *count += 1;
+            }
+        }
+        counts.into_iter().filter(|c| *c < least).sum()
+    }
+
     /// Divides the channels of `track` among the targets that `column` tells apart, and says what a user should know
     /// of them.
     ///
@@ -75,7 +181,8 @@ impl Targets {
     ) -> Result<Self> {
         let targets = Self::read(track, column, again, head)?;
         track.channels = targets.channels(std::mem::take(&mut track.channels), head, options)?;
-        track.notes = targets.notes(track);
+        let notes = targets.notes(track);
+        track.notes.extend(notes);
         Ok(targets)
     }
 

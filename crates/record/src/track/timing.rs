@@ -2,48 +2,165 @@
 
 use std::path::Path;
 
-use super::calendar::{DAY, SECOND};
+use super::calendar::DAY;
+use super::calendar::SECOND;
 use super::head::Head;
 use super::stamp::{self, Count};
-use super::{LoadOptions, TimeFormat, TimeUnit, Worded, names, printable};
+use super::time::{DateOrder, Part, Pieces, Zone, fields, parts_moment};
+use super::{LoadOptions, Rules, TimeFormat, printable};
 use crate::error::{Error, Result};
 
+mod candidates;
+mod columns;
+mod earlier;
+mod form;
+
+pub(crate) use candidates::Candidates;
+pub(crate) use form::Form;
+
 /// Times that can be read, in words.
-pub(crate) const TIMES: &str = "numbers (seconds, or since 1970), 2019-01-31T12:00:00.5Z, 1/31/2019 or 12:00:00.5";
+pub(crate) const TIMES: &str = "numbers (seconds, or since 1970), 2019-01-31T12:00:00.5Z, 1/31/2019 10:00 AM, 31 Jan 2019 or 12:00:00.5; \
+                                what else they look like can be said: --time-format '%d.%m.%Y %H:%M'";
 
 /// The time of the file: where it stands and how it is read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Timing {
-    /// The column of the time, or of the time of day.
+    /// The column of the time, or of the time of day, or of the finest part.
     pub(crate) column: usize,
     /// The column of the date, where it stands apart.
     pub(crate) date_column: Option<usize>,
+    /// The columns of [`TimeFormat::Parts`], in their order.
+    pub(crate) columns: Vec<usize>,
     /// How times (with a date column: dates) are written.
     pub(crate) format: TimeFormat,
+    /// The zone of clocks that write none.
+    pub(crate) zone: Option<Zone>,
+    /// What was assumed, in a line each.
+    pub(crate) said: Vec<String>,
+    /// True for seconds of the week alone.
+    pub(crate) of_week: bool,
+    /// True for minutes and seconds alone.
+    pub(crate) of_hour: bool,
 }
 
 /// A time as read: nanoseconds, or a number of seconds that has no exact nanoseconds.
 pub(crate) type Moment = Count;
 
 impl Timing {
-    /// The moment in the two cells, trimmed and unquoted; none where it cannot be read.
-    #[inline]
-    pub(crate) fn read(&self, cell: &[u8], date: &[u8], decimal_comma: bool) -> Option<Moment> {
-        if self.date_column.is_some() {
-            let midnight = calendar(&self.format, date)?;
-            return midnight.checked_add(stamp::clock(cell)?).map(Count::Exact);
+    /// A time in one column, or in two where the date stands apart.
+    pub(crate) fn of(column: usize, date_column: Option<usize>, format: TimeFormat) -> Self {
+        Self {
+            column,
+            date_column,
+            columns: Vec::new(),
+            format,
+            zone: None,
+            said: Vec::new(),
+            of_week: false,
+            of_hour: false,
         }
+    }
+
+    /// A time in several columns.
+    pub(crate) fn of_parts(columns: Vec<usize>, parts: Vec<Part>) -> Self {
+        let column = columns.last().copied().unwrap_or(0);
+        Self { columns, ..Self::of(column, None, TimeFormat::Parts(parts)) }
+    }
+
+    /// True for a column that is, or is part of, the time.
+    pub(crate) fn has(&self, column: usize) -> bool {
+        self.column == column || self.date_column == Some(column) || self.columns.contains(&column)
+    }
+
+    /// True where times are those of a day alone: a step back is midnight.
+    pub(crate) fn is_of_day(&self) -> bool {
+        match &self.format {
+            TimeFormat::Clock => true,
+            TimeFormat::Parts(parts) => parts.contains(&Part::Clock) && !parts.iter().any(|p| p.dates()),
+            TimeFormat::Pattern(pattern) => !pattern.has_date(),
+            _ => false,
+        }
+    }
+
+    /// After how many nanoseconds a counter begins again: 32 bits of its unit, or a week of seconds of the week.
+    pub(crate) fn wraps_after(&self) -> Option<i64> {
         match self.format {
+            _ if self.of_week => Some(7 * DAY),
+            TimeFormat::Elapsed { unit_ns } if unit_ns < SECOND => (1_i64 << 32).checked_mul(unit_ns),
+            TimeFormat::Duration => Some(3600 * SECOND).filter(|_| self.of_hour),
+            _ => None,
+        }
+    }
+
+    /// True where the time stands in one column.
+    pub(crate) fn is_single(&self) -> bool {
+        self.date_column.is_none() && self.columns.len() < 2
+    }
+
+    /// The moment in the cells of a row, which `cell` gives trimmed and unquoted; none where it cannot be read.
+    #[inline]
+    pub(crate) fn read<'a>(&self, cell: impl Fn(usize) -> &'a [u8], decimal_comma: bool) -> Option<Moment> {
+        if let Some(date) = self.date_column {
+            let midnight = calendar(&self.format, cell(date))?;
+            let local = midnight.checked_add(stamp::clock(cell(self.column))?)?;
+            return self.in_zone(local, false).map(Count::Exact);
+        }
+        let single = || cell(self.column);
+        match &self.format {
             TimeFormat::SampleNumber => None,
-            TimeFormat::Seconds => stamp::count(cell, SECOND, decimal_comma),
+            TimeFormat::Seconds => stamp::count(single(), SECOND, decimal_comma),
             TimeFormat::Elapsed { unit_ns } | TimeFormat::Epoch { unit_ns } => {
-                match stamp::count(cell, unit_ns, decimal_comma)? {
+                match stamp::count(single(), *unit_ns, decimal_comma)? {
                     #[expect(clippy::cast_precision_loss, reason = "a unit is a short number")]
-                    Count::Inexact(value) => nanoseconds(value * unit_ns as f64),
+                    Count::Inexact(value) => nanoseconds(value * *unit_ns as f64),
                     exact => Some(exact),
                 }
             }
-            _ => calendar(&self.format, cell).map(Count::Exact),
+            TimeFormat::Iso | TimeFormat::YearLast { .. } | TimeFormat::Clock if self.zone.is_none() => {
+                calendar(&self.format, single()).map(Count::Exact)
+            }
+            _ => self.other(&cell, decimal_comma).map(Count::Exact),
+        }
+    }
+
+    /// The moment in a form that is not read in the quickest way.
+    fn other<'a>(&self, cell: &impl Fn(usize) -> &'a [u8], decimal_comma: bool) -> Option<i64> {
+        let text = cell(self.column);
+        let told = |pieces: Option<Pieces>| {
+            let told = pieces?.told(text)?;
+            let local = told.days?.checked_mul(DAY)?.checked_add(told.of_day)?;
+            match told.offset {
+                Some(offset) => local.checked_sub(offset),
+                None => self.in_zone(local, false),
+            }
+        };
+        match &self.format {
+            TimeFormat::Iso => told(fields(text, DateOrder::YearFirst)),
+            TimeFormat::YearLast { day_first: true } => told(fields(text, DateOrder::DayFirst)),
+            TimeFormat::YearLast { day_first: false } => told(fields(text, DateOrder::MonthFirst)),
+            TimeFormat::Stamp { order } => told(fields(text, *order)),
+            TimeFormat::Pattern(pattern) if pattern.has_date() => told(pattern.fields(text)),
+            TimeFormat::Pattern(pattern) => pattern.fields(text)?.told(text).map(|t| t.of_day),
+            TimeFormat::Duration => duration(text),
+            TimeFormat::Since { unit_ns, zero } => since(text, *unit_ns, zero.seconds(), decimal_comma),
+            TimeFormat::DecimalYear => decimal_year(text, decimal_comma),
+            TimeFormat::Parts(parts) => {
+                let columns = self.columns.as_slice();
+                let moment = parts_moment(parts, |i| columns.get(i).map_or(&[][..], |c| cell(*c)), decimal_comma)?;
+                let apart = parts.iter().any(|p| matches!(p, Part::Seconds | Part::GpsWeek))
+                    || !parts.iter().any(|p| p.dates());
+                self.in_zone(moment, apart)
+            }
+            TimeFormat::Clock => stamp::clock(text),
+            _ => None,
+        }
+    }
+
+    /// A local time in UTC; as it is for what tells no local time.
+    fn in_zone(&self, local: i64, absolute: bool) -> Option<i64> {
+        match &self.zone {
+            Some(zone) if !absolute => zone.utc(local),
+            _ => Some(local),
         }
     }
 }
@@ -56,82 +173,65 @@ fn calendar(format: &TimeFormat, cell: &[u8]) -> Option<i64> {
     }
 }
 
+/// Time elapsed, with colons: `26:03:00`, `03:07.5`, `-00:00:10`.
+pub(crate) fn duration(text: &[u8]) -> Option<i64> {
+    let (sign, text) = match text {
+        [b'-', rest @ ..] => (-1, rest),
+        [b'+', rest @ ..] => (1, rest),
+        _ => (1, text),
+    };
+    let told = fields(text, DateOrder::YearFirst)?.told(text)?;
+    told.days.is_none().then_some(sign * told.of_day)
+}
+
+/// A number of units after a zero that lies so many seconds after 1970.
+fn since(text: &[u8], unit_ns: i64, zero_s: i64, decimal_comma: bool) -> Option<i64> {
+    #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "seconds of a calendar")]
+    match stamp::count(text, unit_ns, decimal_comma) {
+        Some(Count::Exact(ns)) => ns.checked_add(zero_s.checked_mul(SECOND)?),
+        Some(Count::Inexact(value)) => {
+            // More decimals than nanoseconds have, or days from far away: whole units apart from their decimals.
+            let whole = value.trunc();
+            let units = (whole as i128) * i128::from(unit_ns) + i128::from(zero_s) * i128::from(SECOND);
+            let part = ((value - whole) * unit_ns as f64 / 1e3).round() as i128 * 1000;
+            i64::try_from(units + part).ok()
+        }
+        None => None,
+    }
+}
+
+/// A year with decimals, to the nearest second.
+fn decimal_year(text: &[u8], decimal_comma: bool) -> Option<i64> {
+    let text = std::str::from_utf8(text).ok()?;
+    let value: f64 = if decimal_comma { text.replacen(',', ".", 1).parse() } else { text.parse() }.ok()?;
+    if !(1.0..9999.0).contains(&value) {
+        return None;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "a year")]
+    let year = value.floor() as i64;
+    let start = |year| super::calendar::Date { year, month: 1, day: 1 }.days();
+    let (from, to) = (start(year)?, start(year + 1)?);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "a year of seconds")]
+    let seconds = ((value - value.floor()) * ((to - from) * 86_400) as f64).round() as i64;
+    from.checked_mul(DAY)?.checked_add(seconds.checked_mul(SECOND)?)
+}
+
 /// The nearest whole nanosecond, where 64 bits hold it.
 pub(crate) fn nanoseconds(ns: f64) -> Option<Moment> {
     #[expect(clippy::cast_possible_truncation, reason = "checked")]
     (ns.abs() < 9.2e18).then(|| Count::Exact(ns.round() as i64))
 }
 
-/// What the cells of a column look like, as times.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Form {
-    Iso { date_only: bool },
-    YearLast { date_only: bool },
-    Clock,
-    Number,
-}
-
-impl Form {
-    /// The form of at least half of the cells that are not empty.
-    fn of(head: &Head, column: usize) -> Option<Self> {
-        let cells: Vec<&[u8]> = head.column(column).into_iter().map(str::as_bytes).collect();
-        let cells: Vec<&[u8]> = cells.into_iter().filter(|c| !head.reading.is_marker(c)).collect();
-        let most = |reads: &dyn Fn(&[u8]) -> bool| {
-            !cells.is_empty() && cells.iter().filter(|c| reads(c)).count() * 2 >= cells.len()
-        };
-        let date_only = || most(&|c| !c.contains(&b':'));
-        if most(&|c| stamp::iso(c).is_some()) {
-            Some(Self::Iso { date_only: date_only() })
-        } else if most(&|c| stamp::clock(c).is_some()) {
-            Some(Self::Clock)
-        } else if most(&|c| [true, false].iter().any(|first| stamp::year_last(c, *first).is_some())) {
-            Some(Self::YearLast { date_only: date_only() })
-        } else if most(&|c| stamp::count(c, 1, head.reading.decimal_comma).is_some()) {
-            Some(Self::Number)
-        } else {
-            None
-        }
-    }
-
-    fn is_date_only(self) -> bool {
-        matches!(self, Self::Iso { date_only: true } | Self::YearLast { date_only: true })
-    }
-}
-
 /// The time column: the one of the options, otherwise the one that looks most like a time; none for the sample number.
 ///
 /// # Errors
-/// [`Error::Usage`] for a name that is not there, and for a unit of times that are no numbers; [`Error::Input`] where the named column holds no times, and where
-/// day and month cannot be told apart.
+/// [`Error::Usage`] for a name that is not there, and for a unit of times that are no numbers; [`Error::Input`] where
+/// the named column holds no times, and where day and month cannot be told apart.
 pub(crate) fn choose(head: &Head, options: &LoadOptions, path: &Path) -> Result<Option<Timing>> {
-    let chosen = match &options.time {
-        Some(name) => {
-            let column = names::find(head.names.iter().map(String::as_str), name)?;
-            let form = Form::of(head, column).ok_or_else(|| unreadable(head, column, path))?;
-            Some((column, form))
-        }
-        None => best(head),
-    };
-    let unit = options.time_unit.and_then(Worded::word);
-    let Some((column, form)) = chosen else {
-        return match unit {
-            None => Ok(None),
-            Some(word) => Err(unitless("the times are sample numbers", word)),
-        };
-    };
-    let (column, date_column) = paired(head, column, form);
-    let dated = date_column.unwrap_or(column);
-    let format = Form::of(head, dated).unwrap_or(form);
-    if let Some(word) = unit.filter(|_| format != Form::Number) {
-        return Err(unitless(&format!("`{}` holds dates or times of day", printable(&head.names[dated])), word));
+    match options.rules {
+        Rules::First => earlier::choose(head, options, path),
+        Rules::Second => Candidates::of(head, options).choose(path),
     }
-    let format = match format {
-        Form::Iso { .. } => TimeFormat::Iso,
-        Form::Clock => TimeFormat::Clock,
-        Form::YearLast { .. } => TimeFormat::YearLast { day_first: day_first(head, dated, options, path)? },
-        Form::Number => number_format(head, column, options.time_unit),
-    };
-    Ok(Some(Timing { column, date_column, format }))
 }
 
 /// A unit was told that nothing has.
@@ -139,119 +239,18 @@ fn unitless(what: &str, word: &str) -> Error {
     Error::usage(format!("{what}, which have no unit ({word})"), "leave out the unit of time, or choose a time column")
 }
 
-fn best(head: &Head) -> Option<(usize, Form)> {
-    let scored = head.names.iter().enumerate().filter_map(|(column, name)| {
-        let form = Form::of(head, column)?;
-        let rank = names::time_rank(name);
-        let content = match form {
-            Form::Iso { .. } => 5,
-            Form::Clock | Form::YearLast { .. } if rank > 0 => 3,
-            Form::Number if rank == 4 || (rank > 0 && runs_forward(head, column)) => 2,
-            _ => return None,
-        };
-        Some((rank + content, column, form))
-    });
-    scored.max_by_key(|(score, column, _)| (*score, usize::MAX - column)).map(|(_, column, form)| (column, form))
-}
-
-/// Where date and time of day stand apart: the column of the time of day and that of the date.
-fn paired(head: &Head, column: usize, form: Form) -> (usize, Option<usize>) {
-    let other = |fits: &dyn Fn(Form) -> bool| {
-        (0..head.names.len()).filter(|c| *c != column).find(|c| Form::of(head, *c).is_some_and(fits))
-    };
-    match form {
-        Form::Clock => (column, other(&Form::is_date_only)),
-        _ if form.is_date_only() => match other(&|f| f == Form::Clock) {
-            Some(clock) => (clock, Some(column)),
-            None => (column, None),
-        },
-        _ => (column, None),
-    }
-}
-
-fn numbers(head: &Head, column: usize) -> Vec<f64> {
-    let mut numbers = Vec::new();
-    for cell in head.column(column) {
-        numbers.extend(head.reading.number(cell.as_bytes()).filter(|v| v.is_finite()));
-    }
-    numbers
-}
-
-/// True when a column whose name says time goes forward as a time does: steps back and repeated stamps are faults of
-/// single rows, not a reason to take the times for a measurement.
-fn runs_forward(head: &Head, column: usize) -> bool {
-    let numbers = numbers(head, column);
-    let forward = numbers.windows(2).filter(|w| w[1] > w[0]).count();
-    let back = numbers.windows(2).filter(|w| w[1] < w[0]).count();
-    forward > 0 && back * 4 <= forward
-}
-
-/// True when nine of ten steps go forward.
-pub(crate) fn increases(head: &Head, column: usize) -> bool {
-    let numbers = numbers(head, column);
-    let forward = numbers.windows(2).filter(|w| w[1] > w[0]).count();
-    numbers.len() > 1 && forward * 10 >= (numbers.len() - 1) * 9
-}
-
-/// Seconds, another unit, or time since 1970: by the unit that was told or that of the column, and by the size of its
-/// numbers where that and name or steps make dates from 1990 to 2100.
-fn number_format(head: &Head, column: usize, told: Option<TimeUnit>) -> TimeFormat {
-    let name = &head.names[column];
-    let of_column = || names::time_unit_ns(&head.units[column]).or_else(|| names::time_unit_ns(&names::unit_of(name)));
-    let told = told.map(|unit| unit.ns);
-    let unit = told.or_else(of_column);
-    let mut values = numbers(head, column);
-    let steps: Vec<f64> = values.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|s| *s > 0.0).collect();
-    let middle = |values: &mut Vec<f64>| {
-        values.sort_by(f64::total_cmp);
-        values.get(values.len() / 2).copied().unwrap_or(0.0)
-    };
-    let typical = middle(&mut values);
-    let step = middle(&mut { steps });
-    // 1990-01-01 and 2100-01-01 in seconds since 1970.
-    let dated = |unit_ns: i64| {
-        #[expect(clippy::cast_precision_loss, reason = "a power of ten")]
-        let unit = unit_ns as f64 / 1e9;
-        let (value, step) = (typical * unit, step * unit);
-        let plausible = names::time_rank(name) > 0 || (1e-6..864_000.0).contains(&step);
-        (631_152_000.0..4_102_444_800.0).contains(&value) && plausible
-    };
-    // GPS time has another zero and no leap seconds.
-    let other_zero = names::words(name).iter().any(|w| matches!(w.to_lowercase().as_str(), "gps" | "tow" | "gnss"));
-    let epoch = [SECOND, 1_000_000, 1_000, 1]
-        .into_iter()
-        .find(|u| told.is_none_or(|told| told == *u) && dated(*u))
-        .filter(|_| !other_zero);
-    match (unit, epoch) {
-        (Some(unit), Some(epoch)) if unit == epoch => TimeFormat::Epoch { unit_ns: epoch },
-        (None, Some(epoch)) => TimeFormat::Epoch { unit_ns: epoch },
-        (Some(unit), _) if unit != SECOND => TimeFormat::Elapsed { unit_ns: unit },
-        _ => TimeFormat::Seconds,
-    }
-}
-
-/// Does the day stand before the month?
-fn day_first(head: &Head, column: usize, options: &LoadOptions, path: &Path) -> Result<bool> {
-    if let Some(day_first) = options.day_first {
-        return Ok(day_first);
-    }
+/// Nothing in the dates of a column tells whether the day or the month stands first.
+fn undecided(head: &Head, column: usize, path: &Path) -> Error {
     let cells = head.column(column);
-    let parts: Vec<_> = cells.iter().filter_map(|c| stamp::year_last_parts(c.as_bytes())).collect();
-    let (first, second) = (parts.iter().any(|p| p.first > 12), parts.iter().any(|p| p.second > 12));
-    // Only day first is written with points.
-    match (first || parts.iter().any(|p| p.separator == b'.'), second) {
-        (true, false) => Ok(true),
-        (false, true) => Ok(false),
-        _ => Err(Error::Input {
-            path: path.to_path_buf(),
-            line: Some(head.data_line),
-            what: format!(
-                "`{}` holds dates like {}: is the day or the month first?",
-                printable(&head.names[column]),
-                printable(cells.first().unwrap_or(&""))
-            ),
-            help: "say which (--dates day-first or --dates month-first), choose another time column, or write dates as 2019-01-31".into(),
-        }),
+    Error::Input {
+        path: path.to_path_buf(),
+        line: Some(head.data_line),
+        what: format!(
+            "`{}` holds dates like {}: is the day or the month first?",
+            printable(&head.names[column]),
+            printable(cells.first().unwrap_or(&""))
+        ),
+        help: "say which (--dates day-first or --dates month-first), choose another time column, or write dates as 2019-01-31".into(),
     }
 }
 
@@ -271,6 +270,13 @@ fn unreadable(head: &Head, column: usize, path: &Path) -> Error {
     }
 }
 
+/// True when nine of ten steps go forward.
+pub(crate) fn increases(head: &Head, column: usize) -> bool {
+    let numbers = form::numbers(head, column);
+    let forward = numbers.windows(2).filter(|w| w[1] > w[0]).count();
+    numbers.len() > 1 && forward * 10 >= (numbers.len() - 1) * 9
+}
+
 /// Does this moment lie more than half a day before the last?
 pub(crate) fn is_midnight(last: i64, now: i64) -> bool {
     now < last - DAY / 2
@@ -279,6 +285,7 @@ pub(crate) fn is_midnight(last: i64, now: i64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::super::text::Text;
+    use super::super::{TimeUnit, Worded};
     use super::*;
 
     fn chosen_with(text: &str, options: &LoadOptions) -> Result<Option<(String, Option<usize>, TimeFormat)>> {
@@ -301,7 +308,11 @@ mod tests {
             ("timestamp,x\n1573495025250,1\n1573495025260,2\n", "timestamp", TimeFormat::Epoch { unit_ns: 1_000_000 }),
             ("epoch,x\n1573495025,1\n1573495026,2\n", "epoch", TimeFormat::Epoch { unit_ns: SECOND }),
             ("time_ns,x\n1573495025250000000,1\n1573495025250000001,2\n", "time_ns", TimeFormat::Epoch { unit_ns: 1 }),
-            ("gps_time,x\n1257530243,1\n1257530244,2\n", "gps_time", TimeFormat::Seconds),
+            (
+                "gps_time,x\n1257530243,1\n1257530244,2\n",
+                "gps_time",
+                TimeFormat::Since { unit_ns: SECOND, zero: super::super::Zero::Gps },
+            ),
             ("time,x\n17:57:05.25,1\n17:57:06.25,2\n", "time", TimeFormat::Clock),
             ("time,x\n3/23/2005,1\n3/24/2005,2\n", "time", TimeFormat::YearLast { day_first: false }),
             ("time;x\n23.03.2005 10:00;1,5\n24.03.2005 11:00;2,5\n", "time", TimeFormat::YearLast { day_first: true }),

@@ -14,6 +14,32 @@ pub(crate) struct Layout {
     pub(crate) quote: Option<u8>,
     /// The last byte of a line end: a line feed, or a carriage return in a file without line feeds.
     pub(crate) line_end: u8,
+    /// What comments begin with, besides `#`, `%` and `//`.
+    pub(crate) mark: Option<Mark>,
+}
+
+/// What the comments of a file begin with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Mark {
+    bytes: [u8; Self::LONGEST],
+    length: usize,
+}
+
+impl Mark {
+    /// Bytes of the longest mark.
+    const LONGEST: usize = 16;
+
+    /// The mark of these bytes; none where they are none or too many.
+    pub(crate) fn new(text: &[u8]) -> Option<Self> {
+        let mut bytes = [0; Self::LONGEST];
+        bytes.get_mut(..text.len()).filter(|_| !text.is_empty())?.copy_from_slice(text);
+        Some(Self { bytes, length: text.len() })
+    }
+
+    /// Its bytes.
+    pub(crate) fn bytes(&self) -> &[u8] {
+        &self.bytes[..self.length]
+    }
 }
 
 impl Layout {
@@ -34,7 +60,7 @@ pub(crate) fn line_end_of(body: &[u8]) -> u8 {
 pub(crate) enum RecordKind {
     /// Cells.
     Data,
-    /// A line that starts with `#`, `%` or `//`.
+    /// A line that starts with `#`, `%` or `//`, or with the mark of the file.
     Comment,
     /// Nothing but blanks.
     Blank,
@@ -80,6 +106,11 @@ impl<'a> Records<'a> {
         Self { body, layout, offset: 0, line: 1 }
     }
 
+    /// The records of `body` from `offset` on, where line `line` begins.
+    pub(crate) fn from(body: &'a [u8], layout: Layout, offset: usize, line: u64) -> Self {
+        Self { body, layout, offset, line }
+    }
+
     /// How many lines have been passed.
     pub(crate) fn lines(&self) -> u64 {
         self.line - 1
@@ -96,7 +127,7 @@ impl<'a> Iterator for Records<'a> {
             return None;
         }
         let mut length = memchr(self.layout.line_end, rest).map_or(rest.len(), |at| at + 1);
-        let kind = kind_of(&rest[..length]);
+        let kind = kind_of(&rest[..length], self.layout.mark);
         let mut lines = 1;
         if let (RecordKind::Data, Some(quote)) = (kind, self.layout.quote)
             && memchr(quote, &rest[..length]).is_some()
@@ -118,10 +149,11 @@ impl<'a> Iterator for Records<'a> {
 }
 
 /// Is this line cells, a comment or nothing? `line` may carry its line end.
-pub(crate) fn kind_of(line: &[u8]) -> RecordKind {
-    match line.trim_ascii_start() {
-        [] => RecordKind::Blank,
-        [b'#' | b'%', ..] | [b'/', b'/', ..] => RecordKind::Comment,
+pub(crate) fn kind_of(line: &[u8], mark: Option<Mark>) -> RecordKind {
+    match (line.trim_ascii_start(), mark) {
+        ([], _) => RecordKind::Blank,
+        ([b'#' | b'%', ..] | [b'/', b'/', ..], _) => RecordKind::Comment,
+        (text, Some(mark)) if text.starts_with(mark.bytes()) => RecordKind::Comment,
         _ => RecordKind::Data,
     }
 }
@@ -301,7 +333,7 @@ mod tests {
     use super::super::cells::Cells;
     use super::*;
 
-    const COMMA: Layout = Layout { delimiter: Delimiter::Byte(b','), quote: Some(b'"'), line_end: b'\n' };
+    const COMMA: Layout = Layout { delimiter: Delimiter::Byte(b','), quote: Some(b'"'), line_end: b'\n', mark: None };
     const BLANKS: Layout = Layout { delimiter: Delimiter::Blanks, ..COMMA };
 
     fn cells(record: &str, layout: Layout) -> Vec<String> {

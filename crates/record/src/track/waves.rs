@@ -133,13 +133,18 @@ mod tests {
 
     fn plan(reading: &Reading) -> Plan<'_> {
         Plan {
-            layout: Layout { delimiter: Delimiter::Byte(b','), quote: Some(b'"'), line_end: b'\n' },
+            layout: Layout { delimiter: Delimiter::Byte(b','), quote: Some(b'"'), line_end: b'\n', mark: None },
             encoding: Encoding::Utf8 { bom: false },
             reading,
             slots: vec![None, Some(0), None],
             counts: [3, 3],
-            timing: Some(Timing { column: 0, date_column: None, format: TimeFormat::Seconds }),
+            timing: Some(Timing::of(0, None, TimeFormat::Seconds)),
             record_bytes: 8,
+            repeats: &[],
+            oddities: &[],
+            truths: Vec::new(),
+            late: &[],
+            footer: true,
         }
     }
 

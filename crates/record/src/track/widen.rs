@@ -7,7 +7,7 @@ use super::number::Reading;
 use super::rewrite::{NO_VALUE, Pen, patched};
 use super::rows::{text_of, unchanged, walk};
 use super::text::{Text, path_of};
-use super::tokens::{Layout, RecordKind, Records, Span, split};
+use super::tokens::{Layout, Span, split};
 use super::{CellChange, Delimiter, Track};
 use crate::error::{Error, Result};
 
@@ -61,7 +61,7 @@ pub fn widen(track: &Track, changes: &[CellChange], columns: &[NewColumn<'_>], o
             edits.push((track.columns.len() + i, filled((column.cell)(row, &cells), layout)));
         }
         pen.text(&body[written..record.start])?;
-        pen.text(&patched(record.bytes, spans, layout, &edits))?;
+        pen.text(&patched(record.bytes, spans, (layout, false), &edits))?;
         written = record.start + record.bytes.len();
         Ok(true)
     })?;
@@ -72,7 +72,7 @@ pub fn widen(track: &Track, changes: &[CellChange], columns: &[NewColumn<'_>], o
 fn head(track: &Track, text: &Text<'_>, layout: Layout, columns: &[NewColumn<'_>], pen: &mut Pen<'_>) -> Result<usize> {
     let names: Vec<String> = columns.iter().map(|c| quoted(&c.name, track, layout)).collect();
     let nothing: Vec<String> = columns.iter().map(|_| filled(String::new(), layout)).collect();
-    let [header, units] = header_lines(track, text, layout);
+    let [header, units] = [track.dialect.rows.header, track.dialect.rows.units];
     let mut written = 0;
     for (line, cells) in [(header, names), (units, nothing)] {
         let Some((start, length)) = line else { continue };
@@ -83,43 +83,10 @@ fn head(track: &Track, text: &Text<'_>, layout: Layout, columns: &[NewColumn<'_>
         let edits: Vec<(usize, String)> =
             cells.into_iter().enumerate().map(|(i, cell)| (track.columns.len() + i, cell)).collect();
         pen.text(&body[written..start])?;
-        pen.text(&patched(record, &spans, layout, &edits))?;
+        pen.text(&patched(record, &spans, (layout, false), &edits))?;
         written = start + length;
     }
     Ok(written)
-}
-
-/// Start and length of a line in the body.
-type Place = (usize, usize);
-
-/// Where the header and the units row are, if there are such.
-fn header_lines(track: &Track, text: &Text<'_>, layout: Layout) -> [Option<Place>; 2] {
-    if !track.dialect.header {
-        return [None, None];
-    }
-    let mut spans = Vec::new();
-    let (mut before, mut comments) = (Vec::new(), Vec::new());
-    for record in Records::new(text.body(), layout).map_while(std::result::Result::ok) {
-        split(record.bytes, layout, &mut spans);
-        let filled = spans.iter().filter(|s| !s.of(record.bytes).trim_ascii().is_empty()).count();
-        let place = (record.start, record.bytes.len());
-        match record.kind {
-            RecordKind::Data if filled > 0 && before.len() == track.dialect.preamble => break,
-            RecordKind::Data if filled > 0 => before.push((filled, place)),
-            RecordKind::Comment if before.is_empty() => comments.push((spans.len(), place)),
-            _ => {}
-        }
-    }
-    // The rules of the loader: of several lines the header fills the most cells, the earliest of equals.
-    let mut header: Option<(usize, Place)> = None;
-    for &(filled, place) in &before {
-        if header.is_none_or(|(most, _)| filled > most) {
-            header = Some((filled, place));
-        }
-    }
-    let commented = comments.iter().rev().find(|(cells, _)| *cells == track.columns.len());
-    let units = if track.dialect.units_row { before.last().map(|b| b.1) } else { None };
-    [header.or(commented.copied()).map(|h| h.1), units]
 }
 
 /// A cell that is a cell: between blanks an empty one would be none.

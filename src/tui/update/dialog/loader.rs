@@ -9,7 +9,7 @@ use super::super::super::model::{Dialog, LoaderForm, Model, Overlay};
 use super::super::overlay::edit;
 use super::{effect, keep, opening};
 use crate::error::{Error, Result, on_one_line};
-use crate::track::{LoadOptions, Source};
+use crate::track::{FileLine, LoadOptions, Source};
 
 mod fields;
 
@@ -34,7 +34,25 @@ pub(super) fn form(model: &mut Model, source: Source, back: Option<Box<Dialog>>)
         seen: None,
         stale: true,
         columns: Vec::new(),
+        lines: Vec::new(),
         back,
+    };
+    look(model, form)
+}
+
+/// The dialog about a file that could not be understood as the options have it.
+pub(in crate::tui) fn misread(model: &mut Model, source: Source, options: LoadOptions) -> Vec<Effect> {
+    let form = LoaderForm {
+        source,
+        options,
+        again: false,
+        choice: 0,
+        typing: None,
+        seen: None,
+        stale: true,
+        columns: Vec::new(),
+        lines: Vec::new(),
+        back: None,
     };
     look(model, form)
 }
@@ -98,13 +116,14 @@ fn step(model: &mut Model, mut form: LoaderForm, field: &Field, by: isize) -> Ve
     look(model, form)
 }
 
-pub(super) fn seen(model: &mut Model, glance: &Glance, result: Result<Seen>) {
+pub(super) fn seen(model: &mut Model, glance: &Glance, result: Result<Seen>, lines: Vec<FileLine>) {
     let Overlay::Files(dialog) = &mut model.overlay else { return };
     let Dialog::Loader(form) = &mut **dialog else { return };
     if glance.source != form.source || glance.options != form.options || matches!(result, Err(Error::Stopped)) {
         return;
     }
     form.stale = false;
+    form.lines = lines;
     if let Ok(seen) = &result {
         form.columns.clone_from(&seen.columns);
     }

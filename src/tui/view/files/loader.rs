@@ -10,7 +10,7 @@ use super::super::super::update::FIELDS;
 use super::super::fit;
 use super::super::overlay::{Choice, choices, popup, rows, typed};
 use super::{known, padded};
-use crate::track::printable;
+use crate::track::{FileLine, LinePart, printable};
 
 /// Width of the names of fields.
 const NAMES: usize = 17;
@@ -42,8 +42,27 @@ pub(super) fn draw(model: &Model, form: &LoaderForm, area: Rect, buffer: &mut Bu
     } else {
         lines.extend(known(model, form.seen.as_ref(), width));
     }
+    if !matches!(form.seen, Some(Ok(_))) || area.height >= 40 {
+        lines.extend(file_lines(model, &form.lines, width));
+    }
     rows(model, lines, 0, inside, buffer);
     choices
+}
+
+/// The first lines of the file, each in the style of what it is taken for.
+fn file_lines(model: &Model, lines: &[FileLine], width: usize) -> Vec<Line<'static>> {
+    let theme = &model.theme;
+    let line = |line: &FileLine| {
+        let (word, style) = match line.part {
+            LinePart::Preamble => ("text", theme.dim),
+            LinePart::Header => ("names", theme.title),
+            LinePart::Units => ("units", theme.warning),
+            LinePart::Row => ("row", theme.text),
+            LinePart::Unknown => ("", theme.text),
+        };
+        Line::styled(fit(&format!("{:>4} {word:5} {}", line.number, printable(&line.text)), width), style)
+    };
+    lines.iter().map(line).collect()
 }
 
 /// Draws the fields, as many of them as leave room for what they make of the record; gives them and that room. Where

@@ -18,7 +18,7 @@ use crate::repair;
 use crate::review::{Decision, Decisions, Ruling};
 use crate::session::digest::{Digest, WrittenDigest};
 use crate::session::{Data, Plan, Preparation, Recorded, Session, Setup, folder_of, is_period, method_of_id, tidied};
-use crate::track::{DASH, LoadOptions, Source, Worded};
+use crate::track::{DASH, LoadOptions, Pattern, Rules, Source, Worded};
 
 /// A session file larger than this is none.
 const LARGEST: u64 = 64 << 20;
@@ -81,6 +81,17 @@ struct WrittenData {
     header: Option<bool>,
     quotes: Option<bool>,
     day_first: Option<bool>,
+    time_format: Option<Spanned<String>>,
+    time_zone: Option<String>,
+    header_line: Option<usize>,
+    skip: Option<usize>,
+    units_line: Option<usize>,
+    comment: Option<String>,
+    #[serde(default)]
+    names: Vec<String>,
+    table: Option<usize>,
+    /// By which rules the record was understood; the first, where nothing is said.
+    rules: Option<Spanned<i64>>,
 }
 
 #[derive(Deserialize)]
@@ -281,6 +292,15 @@ impl Reader<'_> {
             header: data.header,
             quotes: data.quotes,
             day_first: data.day_first,
+            time_format: self.pattern(data.time_format)?,
+            time_zone: data.time_zone,
+            header_line: data.header_line,
+            skip: data.skip,
+            units_line: data.units_line,
+            comment: data.comment,
+            names: data.names,
+            table: data.table,
+            rules: self.rules(data.rules)?,
             channels: Vec::new(),
         };
         Ok(Data {
@@ -291,6 +311,24 @@ impl Reader<'_> {
             record_was: self.told("record_was", data.record_was)?,
             row_check: data.row_check,
             options,
+        })
+    }
+
+    fn pattern(&self, text: Option<Spanned<String>>) -> Result<Option<Pattern>> {
+        let Some(text) = text else { return Ok(None) };
+        Pattern::new(text.get_ref()).map(Some).map_err(|e| self.wrap(self.line(text.span()), e))
+    }
+
+    fn rules(&self, number: Option<Spanned<i64>>) -> Result<Rules> {
+        let Some(number) = number else { return Ok(Rules::First) };
+        Rules::of_number(*number.get_ref()).ok_or_else(|| {
+            let what = format!("rules = {}: this program knows rules 1 and 2", number.get_ref());
+            fault(
+                self.path,
+                self.line(number.span()),
+                what,
+                "use the version of wildpoint that wrote it, or a later one",
+            )
         })
     }
 
@@ -385,10 +423,10 @@ impl Reader<'_> {
     }
 
     /// A complaint about a value, with the line it stands on.
-    fn wrap(&self, line: Option<usize>, e: CoreError) -> Error {
-        match e {
-            CoreError::Usage { what, help } => fault(self.path, line, what, &help),
-            other => other.into(),
+    fn wrap(&self, line: Option<usize>, e: impl Into<Error>) -> Error {
+        match e.into() {
+            Error::Usage { what, help } => fault(self.path, line, what, &help),
+            other => other,
         }
     }
 }

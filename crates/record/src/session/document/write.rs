@@ -7,7 +7,7 @@ use super::FORMAT;
 use crate::error::{Error, Result};
 use crate::param::{Param, Settings, Value};
 use crate::session::{Data, Digest, Plan, Preparation, Session, folder_of};
-use crate::track::{Source, Worded, is_hidden};
+use crate::track::{Pattern, Rules, Source, Worded, is_hidden};
 
 /// The session file, with its digest, for a session that lies at `path`. `texts` gives, for each plan, the texts of time and value of
 /// each decided row, in the order of the rows.
@@ -88,6 +88,32 @@ fn loading(data: &Data) -> Vec<String> {
         if let Some(value) = value {
             lines.push(format!("{key} = {value}"));
         }
+    }
+    for (key, number) in [
+        ("header_line", options.header_line),
+        ("skip", options.skip),
+        ("units_line", options.units_line),
+        ("table", options.table),
+    ] {
+        if let Some(number) = number {
+            lines.push(format!("{key} = {number}"));
+        }
+    }
+    for (key, text) in [
+        ("time_format", options.time_format.as_ref().map(Pattern::text)),
+        ("time_zone", options.time_zone.as_deref()),
+        ("comment", options.comment.as_deref()),
+    ] {
+        if let Some(text) = text {
+            lines.push(format!("{key} = {}", quoted(text)));
+        }
+    }
+    if !options.names.is_empty() {
+        let names: Vec<String> = options.names.iter().map(|n| quoted(n)).collect();
+        lines.push(format!("names = [{}]", names.join(", ")));
+    }
+    if options.rules != Rules::First {
+        lines.push(format!("rules = {}", options.rules.number()));
     }
     if !options.missing.is_empty() {
         let markers: Vec<String> = options.missing.iter().map(|m| quoted(m)).collect();

@@ -1,6 +1,6 @@
 //! What can be told the loader: one row for each option.
 
-use crate::track::{LoadOptions, Worded};
+use crate::track::{LoadOptions, Pattern, Worded};
 
 /// A field of the dialog.
 #[derive(Debug)]
@@ -18,6 +18,9 @@ pub struct Field {
     pub(super) clear: fn(&mut LoadOptions),
     /// Takes what was typed, where that makes sense.
     pub(super) take: Option<fn(&mut LoadOptions, &str)>,
+    /// A text that it takes.
+    #[cfg_attr(not(test), expect(dead_code, reason = "tests type it"))]
+    example: &'static str,
 }
 
 impl Field {
@@ -37,6 +40,7 @@ pub static FIELDS: &[Field] = &[
         step: Some(|o, columns, by| o.time = next(&named(columns, Some("sample")), o.time.clone(), by)),
         clear: |o| o.time = None,
         take: Some(|o, text| o.time = told(text)),
+        example: "x",
     },
     Field {
         name: "time unit",
@@ -45,6 +49,26 @@ pub static FIELDS: &[Field] = &[
         step: Some(|o, _, by| o.time_unit = stepped(o.time_unit, by)),
         clear: |o| o.time_unit = None,
         take: None,
+        example: "x",
+    },
+    Field {
+        name: "time format",
+        help: "like %d.%m.%Y %H:%M:%S%.f",
+        text: |o| o.time_format.as_ref().map(|p| p.text().to_owned()),
+        step: None,
+        clear: |o| o.time_format = None,
+        // What is no pattern yet is left as it was.
+        take: Some(|o, text| o.time_format = Pattern::new(text).ok()),
+        example: "%H:%M",
+    },
+    Field {
+        name: "time zone",
+        help: "of clocks that write none: Europe/Berlin, +01:00",
+        text: |o| o.time_zone.clone(),
+        step: None,
+        clear: |o| o.time_zone = None,
+        take: Some(|o, text| o.time_zone = told(text)),
+        example: "UTC",
     },
     Field {
         name: "channels",
@@ -56,6 +80,7 @@ pub static FIELDS: &[Field] = &[
         }),
         clear: |o| o.channels.clear(),
         take: Some(|o, text| o.channels = list(text)),
+        example: "x",
     },
     Field {
         name: "track column",
@@ -64,6 +89,7 @@ pub static FIELDS: &[Field] = &[
         step: Some(|o, columns, by| o.track = next(&named(columns, None), o.track.clone(), by)),
         clear: |o| o.track = None,
         take: Some(|o, text| o.track = told(text)),
+        example: "x",
     },
     Field {
         name: "truth column",
@@ -72,6 +98,7 @@ pub static FIELDS: &[Field] = &[
         step: Some(|o, columns, by| o.truth = next(&named(columns, None), o.truth.clone(), by)),
         clear: |o| o.truth = None,
         take: Some(|o, text| o.truth = told(text)),
+        example: "x",
     },
     Field {
         name: "missing markers",
@@ -80,6 +107,61 @@ pub static FIELDS: &[Field] = &[
         step: None,
         clear: |o| o.missing.clear(),
         take: Some(|o, text| o.missing = list(text)),
+        example: "x",
+    },
+    Field {
+        name: "header line",
+        help: "the line that names the columns, from 1",
+        text: |o| o.header_line.map(|n| n.to_string()),
+        step: Some(|o, _, by| o.header_line = counted(o.header_line, by)),
+        clear: |o| o.header_line = None,
+        take: Some(|o, text| o.header_line = number(text)),
+        example: "3",
+    },
+    Field {
+        name: "units line",
+        help: "the line of the units, from 1",
+        text: |o| o.units_line.map(|n| n.to_string()),
+        step: Some(|o, _, by| o.units_line = counted(o.units_line, by)),
+        clear: |o| o.units_line = None,
+        take: Some(|o, text| o.units_line = number(text)),
+        example: "3",
+    },
+    Field {
+        name: "skipped lines",
+        help: "lines at the start that are not looked at",
+        text: |o| o.skip.map(|n| n.to_string()),
+        step: Some(|o, _, by| o.skip = counted(o.skip, by)),
+        clear: |o| o.skip = None,
+        take: Some(|o, text| o.skip = number(text)),
+        example: "3",
+    },
+    Field {
+        name: "table",
+        help: "which one of a file with several, from 1",
+        text: |o| o.table.map(|n| n.to_string()),
+        step: Some(|o, _, by| o.table = counted(o.table, by)),
+        clear: |o| o.table = None,
+        take: Some(|o, text| o.table = number(text)),
+        example: "3",
+    },
+    Field {
+        name: "names",
+        help: "of the columns, commas between them",
+        text: |o| (!o.names.is_empty()).then(|| o.names.join(", ")),
+        step: None,
+        clear: |o| o.names.clear(),
+        take: Some(|o, text| o.names = list(text)),
+        example: "x",
+    },
+    Field {
+        name: "comments",
+        help: "what they begin with, besides #, % and //",
+        text: |o| o.comment.clone(),
+        step: None,
+        clear: |o| o.comment = None,
+        take: Some(|o, text| o.comment = told(text).filter(|t| t.len() <= 16)),
+        example: ";",
     },
     Field {
         name: "delimiter",
@@ -88,6 +170,7 @@ pub static FIELDS: &[Field] = &[
         step: Some(|o, _, by| o.delimiter = stepped(o.delimiter, by)),
         clear: |o| o.delimiter = None,
         take: None,
+        example: "x",
     },
     Field {
         name: "decimal comma",
@@ -96,6 +179,7 @@ pub static FIELDS: &[Field] = &[
         step: Some(|o, _, by| o.decimal_comma = next(&[true, false], o.decimal_comma, by)),
         clear: |o| o.decimal_comma = None,
         take: None,
+        example: "x",
     },
     Field {
         name: "header",
@@ -104,6 +188,7 @@ pub static FIELDS: &[Field] = &[
         step: Some(|o, _, by| o.header = next(&[true, false], o.header, by)),
         clear: |o| o.header = None,
         take: None,
+        example: "x",
     },
     Field {
         name: "quotes",
@@ -112,6 +197,7 @@ pub static FIELDS: &[Field] = &[
         step: Some(|o, _, by| o.quotes = next(&[true, false], o.quotes, by)),
         clear: |o| o.quotes = None,
         take: None,
+        example: "x",
     },
     Field {
         name: "order of dates",
@@ -120,6 +206,7 @@ pub static FIELDS: &[Field] = &[
         step: Some(|o, _, by| o.day_first = next(&[true, false], o.day_first, by)),
         clear: |o| o.day_first = None,
         take: None,
+        example: "x",
     },
     Field {
         name: "encoding",
@@ -128,6 +215,7 @@ pub static FIELDS: &[Field] = &[
         step: Some(|o, _, by| o.encoding = stepped(o.encoding, by)),
         clear: |o| o.encoding = None,
         take: None,
+        example: "x",
     },
 ];
 
@@ -158,6 +246,16 @@ fn told(text: &str) -> Option<String> {
     (!text.is_empty()).then(|| text.to_owned())
 }
 
+/// A whole number from 1.
+fn number(text: &str) -> Option<usize> {
+    text.parse().ok().filter(|n| *n > 0)
+}
+
+/// The number after `now`, or the one before it; none below 1.
+fn counted(now: Option<usize>, by: isize) -> Option<usize> {
+    now.unwrap_or(0).checked_add_signed(by).filter(|n| *n > 0)
+}
+
 fn list(text: &str) -> Vec<String> {
     text.split(',').map(str::trim).filter(|t| !t.is_empty()).map(str::to_owned).collect()
 }
@@ -181,7 +279,7 @@ mod tests {
         for field in FIELDS {
             let mut options = LoadOptions::default();
             match field.take {
-                Some(take) => take(&mut options, "x"),
+                Some(take) => take(&mut options, field.example),
                 None => field.step.unwrap()(&mut options, &columns, 1),
             }
             assert!((field.text)(&options).is_some(), "{}", field.name);
