@@ -135,6 +135,15 @@ fn a_larger_multiplier_flags_less() {
 }
 
 #[test]
+fn thousands_of_threads_become_a_few_a_core_and_that_is_said() {
+    let folder = Folder::with_demo();
+    let ran = folder.run("clean demo.csv -o clean.csv -q --threads 20000");
+    let cores = std::thread::available_parallelism().unwrap().get();
+    let said = format!("--threads 20000: {} are used, 4 a core", 4 * cores);
+    assert!(ran.status == 0 && ran.err.contains(&said), "{}", ran.err);
+}
+
+#[test]
 fn the_number_of_threads_changes_no_byte() {
     let folder = Folder::with_demo();
     let written = |n: usize| {
@@ -182,7 +191,8 @@ fn inspect_states_the_facts_of_the_record() {
     let noise = vx["noise_difference"].as_f64().unwrap();
     assert!((noise - 1.08).abs() < 0.08, "{noise}");
     let page = folder.done("inspect demo.csv");
-    for fact in ["rows      2356", "t_s (seconds): 0 s … 2399 s", "vx_mps            number  m/s", "bad rows  none"] {
+    for fact in ["rows      2356", "t_s (seconds): 0 s … 2399 s", "vx_mps            number    m/s", "bad rows  none"]
+    {
         assert!(page.contains(fact), "{fact} is not in\n{page}");
     }
 }

@@ -62,7 +62,7 @@ fn the_repaired_cell_is_written_in_the_form_of_the_file() {
         let folder = Folder::with(&[("in.csv", input.as_bytes())]);
         folder.done("clean in.csv --method hampel --repair linear -o out.csv");
         // Between 14.50 and 15.50.
-        assert_eq!(folder.text("out.csv"), layout.record("15", None), "{input}");
+        assert_eq!(folder.text("out.csv"), layout.record("15.00", None), "{input}");
         assert_eq!(folder.names(), ["in.csv", "out.csv"]);
     }
 }
@@ -78,8 +78,8 @@ fn a_packed_record_is_read_and_a_packed_output_is_written() {
     flate2::read::MultiGzDecoder::new(std::fs::File::open(folder.path("out.csv.gz")).unwrap())
         .read_to_string(&mut unpacked)
         .unwrap();
-    assert_eq!(unpacked, PLAIN.record("15", None));
-    assert_eq!(folder.text("out.csv"), PLAIN.record("15", None));
+    assert_eq!(unpacked, PLAIN.record("15.00", None));
+    assert_eq!(folder.text("out.csv"), PLAIN.record("15.00", None));
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn an_empty_cell_is_filled_only_when_asked() {
     folder.done("clean in.csv --method hampel --repair linear -o off.csv");
     folder.done("clean in.csv --method hampel --repair linear --fill-gaps cells -o cells.csv --flags flags.csv");
     assert_eq!(folder.text("off.csv"), folder.text("in.csv"));
-    assert_eq!(folder.text("cells.csv"), PLAIN.record("15.00", Some("20")));
+    assert_eq!(folder.text("cells.csv"), PLAIN.record("15.00", Some("20.00")));
     // A filled cell is no flag: the table of flags has samples only.
     assert!(!folder.text("flags.csv").contains("\n41,"), "{}", folder.text("flags.csv"));
 }

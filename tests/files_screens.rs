@@ -326,7 +326,7 @@ fn a_changed_option_is_looked_at_and_taken_with_enter() {
     bench.news(News::Seen { glance, result: Err(e), lines: Vec::new() });
     assert!(bench.frame().contains("these are no times; choose another column"), "{}", bench.frame());
     // Missing markers are typed.
-    (0..5).for_each(|_| drop(bench.key(KeyCode::Down)));
+    (0..7).for_each(|_| drop(bench.key(KeyCode::Down)));
     bench.typed("e-99, x");
     bench.key(KeyCode::Enter);
     let options = LoadOptions { missing: vec!["-99".into(), "x".into()], ..options };

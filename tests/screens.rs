@@ -13,6 +13,7 @@ mod workbench;
 
 use insta::{assert_debug_snapshot, assert_snapshot};
 use wildpoint::param::Value;
+use wildpoint::session::sweep::Threshold;
 use wildpoint::stop::Stop;
 use wildpoint::tui::advice::Advise;
 use wildpoint::tui::message::Message;
@@ -170,12 +171,12 @@ fn the_threshold_that_the_record_suggests() {
     // What the advisor would send for the record, and the key that takes it.
     let mut bench = Bench::on("demo.csv", UNICODE_DARK).size((120, 40));
     let advice = Advise::new(&bench.0, 0).run(&Stop::never()).unwrap();
-    let suggestion = advice.sweep.suggestion;
+    let Threshold::Suggested { suggestion, .. } = advice.sweep.threshold else { panic!("no suggestion") };
     update(&mut bench.0, Message::Advised { plan: 0, advice: Box::new(advice) });
     insta::assert_snapshot!("advice_120x40", bench.frame());
     let bench = bench.keys("f");
     let now = bench.0.plan().setup.settings.get("k");
-    assert_eq!(now, suggestion.map(Value::Real), "f takes the suggestion");
+    assert_eq!(now, Some(Value::Real(suggestion)), "f takes the suggestion");
     // It does not depend on the multiplier it is about, and is not asked for again; another order drops it.
     assert!(bench.0.advice().is_some());
     let mut other = Bench::on("demo.csv", UNICODE_DARK);

@@ -64,7 +64,7 @@ fn a_sweep_finds_the_threshold_between_noise_and_wild_points() {
     record(dir.path(), "a.csv");
     let told = json(dir.path(), "sweep a.csv --method two-sided --json");
     assert_eq!((&told["channel"], &told["key"]), (&"x".into(), &"k".into()));
-    assert_eq!(told["points"].as_array().map(Vec::len), Some(48));
+    assert_eq!(told["points"].as_array().map(Vec::len), Some(49));
     let k = told["suggestion"].as_f64().expect("a suggestion");
     let cleaned = json(dir.path(), &format!("clean a.csv --channel x --set k={k} --json"));
     assert_eq!(cleaned["flagged"], WILD.len());

@@ -3,7 +3,7 @@
 use crate::cli::Shared;
 use crate::error::{Error, Result};
 use crate::session::Session;
-use crate::session::sweep::{FROM, STEPS, TO, grid, multiplier, sweep};
+use crate::session::sweep::{Threshold, multiplier, sweep, usual_values};
 use crate::stop::Stop;
 use crate::track::{Samples, Track};
 
@@ -13,25 +13,22 @@ use crate::track::{Samples, Track};
 /// # Errors
 /// [`Error::Usage`] for a method without a multiplier; what a sweep gives.
 pub(super) fn suggest(session: &mut Session, track: &Track) -> Result<Vec<String>> {
-    let values = grid(FROM, TO, STEPS, true)?;
     let mut lines = Vec::with_capacity(session.plans.len());
     for plan in &mut session.plans {
         let param = multiplier(&plan.setup)?;
         let key = param.key;
         let Some(channel) = track.channel(&plan.channel) else { continue };
         let samples = Samples::of(channel, &track.time);
-        let swept = sweep(track, channel, &samples, &plan.setup, (param, &values), &Stop::never())?;
-        lines.push(match (swept.suggestion, swept.suggested()) {
-            (Some(value), Some(plateau)) => {
-                plan.setup.set_text(key, &value.to_string())?;
-                let (least, most) = (plateau.least, plateau.most);
-                let count = if least == most { most.to_string() } else { format!("{least} to {most}") };
-                let (from, to) = (plateau.from, plateau.to);
-                format!("{key} = {value} was suggested: {count} flagged from {key} = {from:.3} to {to:.3}")
+        let swept = sweep(track, channel, &samples, &plan.setup, (param, &usual_values(param)), &Stop::never())?;
+        lines.push(match swept.threshold {
+            Threshold::Suggested { suggestion, range } => {
+                plan.setup.set_text(key, &suggestion.to_string())?;
+                let (from, to) = (range.from, range.to);
+                format!("{key} = {suggestion} was suggested: {range} from {key} = {from:.3} to {to:.3}")
             }
-            _ => {
+            Threshold::None { no_suggestion } => {
                 let kept = plan.setup.settings.get(key).map_or(String::new(), |v| format!(": {key} stays {v}"));
-                format!("nothing was suggested, there is no clear gap between noise and wild points{kept}")
+                format!("nothing was suggested, {no_suggestion}{kept}")
             }
         });
     }

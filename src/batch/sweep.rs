@@ -9,7 +9,8 @@ use super::table::{columns, row};
 use super::{Ending, one_channel, print, print_json, set_threads};
 use crate::cli::SweepArgs;
 use crate::error::Result;
-use crate::session::sweep::{Plateau, Sweep, grid, multiplier, numeric, sweep};
+use crate::param::Param;
+use crate::session::sweep::{FROM, STEPS, Sweep, TO, Threshold, grid, multiplier, numeric, sweep, usual_values};
 use crate::stop::Stop;
 use crate::track::{Samples, printable};
 
@@ -31,7 +32,7 @@ pub(super) fn run(args: &SweepArgs, out: &mut dyn Write) -> Result<Ending> {
         None => multiplier(&setup)?.key,
     };
     let param = numeric(&setup, key, args.from, args.to)?;
-    let values = grid(args.from, args.to, args.steps, !args.linear)?;
+    let values = values(args, param)?;
     let (track, index, note) = one_channel(&args.file, &args.load, args.judge.rate.as_deref())?;
     let channel = &track.channels[index];
     let samples = Samples::of(channel, &track.time);
@@ -45,6 +46,13 @@ pub(super) fn run(args: &SweepArgs, out: &mut dyn Write) -> Result<Ending> {
     let unit = if param.unit.is_empty() { String::new() } else { format!(" ({})", param.unit) };
     let title = format!("{}: outliers of {method} along {key}{unit}{note}\n\n", printable(&channel.name));
     print(out, &(title + &table(&swept) + "\n" + &advice(&swept, method)))
+}
+
+/// The values that the arguments ask for: where they ask for nothing, the default of the parameter is among them.
+fn values(args: &SweepArgs, param: &Param) -> Result<Vec<f64>> {
+    #[expect(clippy::float_cmp, reason = "defaults that nobody touched")]
+    let usual = args.param.is_none() && !args.linear && args.steps == STEPS && args.from == FROM && args.to == TO;
+    if usual { Ok(usual_values(param)) } else { Ok(grid(args.from, args.to, args.steps, !args.linear)?) }
 }
 
 /// The longest bar of the plot.
@@ -99,24 +107,17 @@ fn figure(value: f64) -> String {
 
 fn advice(sweep: &Sweep, method: &str) -> String {
     let key = sweep.key;
-    let count = |p: &Plateau| if p.least == p.most { p.most.to_string() } else { format!("{} to {}", p.least, p.most) };
     let mut out = String::new();
     for p in &sweep.plateaus {
         let (from, to) = (figure(p.from), figure(p.to));
-        let _ =
-            writeln!(out, "plateau: {} flagged from {key} = {from} to {to}, a factor of {:.1}", count(p), p.factor());
+        let _ = writeln!(out, "plateau: {p} from {key} = {from} to {to}, a factor of {:.1}", p.factor());
     }
-    match (sweep.suggestion, sweep.suggested()) {
-        (Some(value), Some(plateau)) => {
-            let _ = writeln!(out, "suggestion: --method {method} --set {key}={value} ({} flagged)", count(plateau));
+    let _ = match sweep.threshold {
+        Threshold::Suggested { suggestion, range } => {
+            writeln!(out, "suggestion: --method {method} --set {key}={suggestion} ({range})")
         }
-        _ if sweep.points.iter().all(|p| p.flagged == 0) => {
-            let _ = writeln!(out, "no suggestion: nothing is flagged along this range");
-        }
-        _ => {
-            let _ = writeln!(out, "no suggestion: the record has no clear gap between noise and wild points");
-        }
-    }
+        Threshold::None { no_suggestion } => writeln!(out, "no suggestion: {no_suggestion}"),
+    };
     out
 }
 
@@ -132,7 +133,7 @@ mod tests {
             missed: None,
             false_alarms: None,
         };
-        Sweep::of("k", counts.iter().enumerate().map(point).collect())
+        Sweep::of("k", counts.iter().enumerate().map(point).collect(), 100_000, None)
     }
 
     #[test]
@@ -148,6 +149,6 @@ mod tests {
     fn the_advice_is_a_command_or_says_why_there_is_none() {
         assert!(advice(&swept(&[90, 7, 7, 0]), "hampel").contains("--method hampel --set k=2.83 (7 flagged)"));
         assert!(advice(&swept(&[90, 40, 10, 0]), "hampel").contains("no clear gap"));
-        assert!(advice(&swept(&[0, 0, 0]), "hampel").contains("nothing is flagged"));
+        assert!(advice(&swept(&[0, 0, 0]), "hampel").contains("nothing is flagged at the default and above"));
     }
 }

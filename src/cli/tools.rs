@@ -14,9 +14,10 @@ pub(super) const SWEEP: &str = "\
      Count the outliers of a method along one of its parameters, and suggest a threshold.\n\n\
      True wild points stand far off: between the noise and them lies a range of thresholds that all flag the \
      same samples. The table shows the count for each value of the parameter (the multiplier k or c when none \
-     is named). A plateau is a range over which the count is above 0 and changes by no more than 1 or 2 %; the \
-     suggestion is the geometric middle of the longest plateau that spans at least a factor of 1.5. Without \
-     one the record has no clear gap between noise and wild points, and the command says so. With a truth \
+     is named). A plateau is a range of at least a factor of 1.5 over which the count is above 0, at most a tenth \
+     of the samples, and changes by no more than 1 or 2 %. The suggestion is the first value from the default \
+     upwards from which the count keeps 85 % of itself up to 1.4 times the value: often the default. Without \
+     such a value the command says why. With a truth \
      column the table also shows what is missed and what is flagged falsely. The decisions of an analyst play \
      no part. Without --channel the first channel is taken, and named.";
 

@@ -93,12 +93,10 @@ fn channel(section: &Section, out: &mut String) {
     out.push_str("<h3>Settings that matter</h3>\n");
     table(&section.settings, out);
     out.push_str("<h3>Flags and decisions</h3>\n");
-    if !section.rest.is_empty() {
-        let _ = writeln!(out, "<p>{}</p>", escaped(&section.rest));
+    if !section.listed.is_empty() {
+        let _ = writeln!(out, "<p>{}</p>", escaped(&section.listed));
     }
-    if section.flags.rows.is_empty() {
-        out.push_str("<p>No sample is flagged, suspect or decided on.</p>\n");
-    } else {
+    if !section.flags.rows.is_empty() {
         table(&section.flags, out);
     }
     out.push_str("</section>\n");

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use crate::calibration::calibrate;
 use crate::method::noise;
 use crate::method::shared::MAX_GAP;
 use crate::param::Value;
@@ -81,6 +82,8 @@ pub struct ChannelFacts {
     pub noise_difference: Option<f64>,
     /// Noise scale by the smoothing spline, of the longest segment.
     pub noise_spline: Option<f64>,
+    /// What the record's own noise is, in words: the resolution, held values, the residual at which noise ends.
+    pub calibration: Vec<String>,
     /// What the values suggest doing before a method sees them, in words.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub suggests: Vec<String>,
@@ -165,6 +168,10 @@ impl Inspection {
         let _ = writeln!(out, "time      {} ({}): {range}{duration}", printable(&self.time), self.time_format);
         self.columns_text(&mut out);
         self.channels_text(&mut out);
+        for channel in &self.channels {
+            let words = channel.calibration.join("; ");
+            let _ = writeln!(out, "  {}: {}", printable(&channel.name), printable(&words));
+        }
         for channel in &self.channels {
             for words in &channel.suggests {
                 let _ = writeln!(out, "  note: {} {}", printable(&channel.name), printable(words));
@@ -260,6 +267,7 @@ fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts
         range: low.zip(series.y.iter().copied().reduce(f64::max)),
         noise_difference: of_longest(noise::by_difference(&series, &segments, &stop)),
         noise_spline: of_longest(noise::by_spline(&series, &segments, &stop)),
+        calibration: calibrate(&series, &stop).map(|found| found.words(&channel.unit)).unwrap_or_default(),
         suggests: suggestions(channel).into_iter().map(in_words).collect(),
     }
 }

@@ -75,12 +75,10 @@ fn channel(section: &Section, out: &mut String) {
     let _ = write!(out, "{} · + repaired\n\n### Settings that matter\n\n", marks.join(" · "));
     table(&section.settings, out);
     out.push_str("### Flags and decisions\n\n");
-    if !section.rest.is_empty() {
-        let _ = write!(out, "{}\n\n", escaped(&section.rest));
+    if !section.listed.is_empty() {
+        let _ = write!(out, "{}\n\n", escaped(&section.listed));
     }
-    if section.flags.rows.is_empty() {
-        out.push_str("No sample is flagged, suspect or decided on.\n\n");
-    } else {
+    if !section.flags.rows.is_empty() {
         table(&section.flags, out);
     }
 }

@@ -57,8 +57,8 @@ pub(super) struct Section {
     pub(super) figures: Vec<Figure>,
     /// Flags and decisions with their evidence.
     pub(super) flags: Table,
-    /// How much of the table is listed, and where the rest is; empty when all is listed.
-    pub(super) rest: String,
+    /// How much of the table is listed, and where the rest is, or that there is nothing to list; empty when all is.
+    pub(super) listed: String,
 }
 
 /// A table of texts.

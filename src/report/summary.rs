@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::method::{Verdict, Way};
 use crate::param::{Settings, Value};
 use crate::score::{FinalError, Scores, final_error};
-use crate::session::{Analysed, Counts, Outcome, Session};
+use crate::session::{Analysed, Counts, Detection, Outcome, Session};
 use crate::track::{Track, printable};
 
 /// A result in a nutshell.
@@ -62,6 +62,9 @@ pub struct ChannelSummary {
     pub segments: usize,
     /// Models that were lost and started again.
     pub restarts: Vec<RestartSummary>,
+    /// What the record's own noise is, where the floor comes from the record.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub calibration: Option<CalibrationSummary>,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Against the truth, where it is known.
@@ -70,6 +73,19 @@ pub struct ChannelSummary {
     /// Against the outlier-free column, where one is named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub final_error: Option<FinalError>,
+}
+
+/// What the method was calibrated to.
+#[derive(Debug, Clone, Serialize)]
+pub struct CalibrationSummary {
+    /// The step of the grid that the values lie on; 0 where they lie on none.
+    pub resolution: f64,
+    /// Share of samples that repeat the value before.
+    pub held: f64,
+    /// The median of the residuals at which noise ends.
+    pub limit: Option<f64>,
+    /// The same in words.
+    pub words: String,
 }
 
 /// What a check objected to before the method.
@@ -106,8 +122,6 @@ impl Summary {
                 time: track.time.full_label(series.t[r.at]),
                 direction: if r.way == Way::Forward { "forward" } else { "backward" },
             });
-            let mut warnings = detection.setup.method.warnings(&detection.setup.settings);
-            warnings.extend(detection.judged.warnings().iter().cloned());
             ChannelSummary {
                 channel: plan.channel.clone(),
                 method: plan.setup.method.about().id,
@@ -118,7 +132,8 @@ impl Summary {
                 counts: outcome.counts,
                 segments: detection.segments.len(),
                 restarts: restarts.collect(),
-                warnings,
+                calibration: calibration(detection, &track.channels[*index].unit),
+                warnings: outcome.warnings(),
                 score: track.truth_for(&plan.channel).map(|truth| Scores::of(outcome, &series, truth)),
                 final_error: None,
             }
@@ -187,6 +202,9 @@ impl Summary {
                 }
             }
             let _ = writeln!(out, " of {} samples in {} segments", n.present, c.segments);
+            if let Some(calibration) = &c.calibration {
+                let _ = writeln!(out, "  the record: {}", printable(&calibration.words));
+            }
             for check in &c.checks {
                 let (outliers, suspects) = (check.outliers, check.suspects);
                 let check = printable(&check.check);
@@ -250,6 +268,16 @@ fn checks(outcome: &Outcome) -> Vec<CheckSummary> {
     let made = applied.iter().zip(found).filter(|(applied, _)| applied.on);
     made.map(|(applied, [outliers, suspects])| CheckSummary { check: applied.to_string(), outliers, suspects })
         .collect()
+}
+
+fn calibration(detection: &Detection, unit: &str) -> Option<CalibrationSummary> {
+    let found = detection.calibration.as_deref()?;
+    Some(CalibrationSummary {
+        resolution: found.resolution,
+        held: found.held,
+        limit: found.typical_limit(),
+        words: found.words(unit).join("; "),
+    })
 }
 
 fn json_settings(settings: &Settings) -> serde_json::Map<String, serde_json::Value> {

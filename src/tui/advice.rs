@@ -9,7 +9,7 @@ use super::message::Message;
 use super::model::Model;
 use crate::error::{Error, Result};
 use crate::job::Worker;
-use crate::session::sweep::{FROM, STEPS, Sweep, TO, grid, multiplier, sweep};
+use crate::session::sweep::{Sweep, multiplier, sweep, usual_values};
 use crate::session::{Detection, Setup};
 use crate::stop::Stop;
 use crate::track::{Samples, Track};
@@ -96,9 +96,8 @@ impl Advise {
     /// [`Error::Stopped`]; [`Error::Usage`] for a method without a multiplier that matters.
     pub fn run(&self, stop: &Stop) -> Result<Advice> {
         let param = multiplier(&self.setup)?;
-        let values = grid(FROM, TO, STEPS, true)?;
         let channel = &self.track.channels[self.channel];
-        let sweep = sweep(&self.track, channel, &self.samples, &self.setup, (param, &values), stop)?;
+        let sweep = sweep(&self.track, channel, &self.samples, &self.setup, (param, &usual_values(param)), stop)?;
         Ok(Advice { setup: self.setup.clone(), sweep })
     }
 

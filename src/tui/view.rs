@@ -129,7 +129,7 @@ fn toast(model: &Model, area: Rect, buffer: &mut Buffer) {
         said(&not_journalled(why), theme.error)
     } else if let Some(range) = model.selection() {
         said(&range_words(model, &range), theme.focus)
-    } else if let Some(warning) = unchecked(model).or_else(|| no_flags(model)) {
+    } else if let Some(warning) = doubts(model) {
         said(&warning, theme.warning)
     } else {
         Line::default()
@@ -159,28 +159,14 @@ fn range_words(model: &Model, range: &std::ops::Range<usize>) -> String {
     format!("rows {first} to {last}: {counts} · {keys}, {back} leaves")
 }
 
-/// That most samples could not be judged: few flags, or none, would read as a good record.
-fn unchecked(model: &Model) -> Option<String> {
-    let drawn = model.state().drawn.as_ref()?;
-    let (unchecked, all) = (drawn.outcome.counts.unchecked, model.series().len());
-    let method = drawn.outcome.detection.setup.method.about().id;
-    (unchecked * 2 > all).then(|| {
-        format!(
-            "{} of {} samples are unchecked: {method} cannot judge them here · {} another method",
-            thousands(unchecked),
-            thousands(all),
-            model.key(Action::Methods)
-        )
-    })
-}
-
-/// Why nothing is flagged, where the settings do not allow it. (Where there is a panel for the settings, it says so
-/// too; the line is for screens without.)
-fn no_flags(model: &Model) -> Option<String> {
-    let drawn = model.state().drawn.as_ref().filter(|d| d.outcome.counts.flagged == 0)?;
-    let setup = &model.plan().setup;
-    let of_setup = setup.method.warnings(&setup.settings).into_iter().next();
-    of_setup.or_else(|| drawn.outcome.detection.judged.warnings().first().cloned())
+/// What of the result should be looked at before it is trusted; otherwise why nothing is flagged, where the settings do
+/// not allow it. (Where there is a panel for the settings, it says so too; the line is for screens without.)
+fn doubts(model: &Model) -> Option<String> {
+    let outcome = &model.state().drawn.as_ref()?.outcome;
+    if !outcome.doubts.is_empty() {
+        return Some(outcome.doubts.join(" · "));
+    }
+    (outcome.counts.flagged == 0).then(|| outcome.warnings().into_iter().next())?
 }
 
 /// Words of the program. The style ends with them: styled blanks up to the edge would go over the wire each time.

@@ -44,7 +44,7 @@ pub(super) fn body(data: &[u8]) {
 /// One cell changed is one cell changed.
 fn changed(track: &wildpoint::track::Track, options: &LoadOptions) {
     let (row, channel) = (track.rows / 2, &track.channels[0]);
-    let value = Some(-1.5);
+    let value = Some(-2.0);
     #[allow(clippy::cast_possible_truncation, reason = "a fuzzed file is short")]
     let cells = vec![CellChange { row: row as u32, column: channel.column, value }];
     let mut out = Vec::new();
@@ -68,7 +68,7 @@ fn changed(track: &wildpoint::track::Track, options: &LoadOptions) {
     }
     for (i, (a, b)) in again.channels[0].values.iter().zip(&channel.values).enumerate() {
         if i == row {
-            assert!(*a == -1.5 || track.dialect.missing.iter().any(|m| m.contains('1')), "row {i}: {a}");
+            assert!(*a == -2.0 || track.dialect.missing.iter().any(|m| m.contains('1')), "row {i}: {a}");
         } else {
             assert!(a == b || (a.is_nan() && b.is_nan()), "row {i}: {a} was {b}");
         }

@@ -16,6 +16,7 @@ use crate::series::Series;
 use crate::setup::Setup;
 use crate::stop::{Stop, Stopped};
 
+mod doubts;
 mod gaps;
 mod outcome;
 mod serialize;
@@ -331,7 +332,8 @@ pub fn settle(
     let mut counts = count(rows.count(), &detection, &marks, &fixes, &runs, fills.len(), stop)?;
     counts.by_checks = detection.checked().filter(|position| outliers.binary_search(position).is_ok()).count();
     drop(seen);
-    Ok(Outcome { detection, marks, outliers, fixes, runs, fills, counts })
+    let doubts = doubts::doubts(&detection, &counts);
+    Ok(Outcome { detection, marks, outliers, fixes, runs, fills, counts, doubts })
 }
 
 /// A channel as it was measured and as its method saw it.

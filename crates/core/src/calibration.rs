@@ -30,6 +30,7 @@ mod resolution;
 mod stretches;
 pub mod stuck;
 mod threshold;
+mod words;
 pub mod wrap;
 
 use background::background;
@@ -54,7 +55,7 @@ pub struct Calibration {
 }
 
 /// A record holds values when at least this share of its samples repeats the one before.
-const HOLDS: f64 = 0.2;
+pub(crate) const HOLDS: f64 = 0.2;
 
 /// More lost samples in a row than this are a gap.
 const MAX_GAP: usize = 5;

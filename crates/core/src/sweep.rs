@@ -2,6 +2,7 @@
 //! (section 8a of `docs/methods.md`). True wild points stand far off: between the noise and them lies a range of
 //! thresholds that all flag the same samples.
 
+use std::fmt;
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -16,10 +17,12 @@ use crate::setup::Setup;
 use crate::stop::{Stop, Stopped};
 
 mod range;
+mod threshold;
 
-pub use range::{grid, multiplier, numeric};
+pub use range::{grid, multiplier, numeric, usual_values};
+pub use threshold::{NoSuggestion, Threshold};
 
-/// Values of a sweep when none are named: so many, from …
+/// Values of a sweep when none are named: so many besides the default, from …
 pub const STEPS: usize = 48;
 /// … this …
 pub const FROM: f64 = 1.0;
@@ -31,6 +34,9 @@ const STILL: f64 = 0.02;
 
 /// A plateau is at least so long: its last value over its first.
 const LENGTH: f64 = 1.5;
+
+/// Where more than one sample in so many is flagged, the method objects to the record and not to wild points.
+const LARGEST_SHARE: usize = 10;
 
 /// What a method flags with one value of the parameter.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -67,11 +73,11 @@ pub struct Sweep {
     pub key: &'static str,
     /// The counts, by ascending value.
     pub points: Vec<Point>,
-    /// Where they stand still, by ascending value; none overlaps another.
+    /// Where they stand still with few enough flagged, by ascending value; none overlaps another.
     pub plateaus: Vec<Plateau>,
-    /// The geometric middle of the longest plateau, to three digits; none when the record has no clear gap between
-    /// noise and wild points.
-    pub suggestion: Option<f64>,
+    /// The value to take, or the reason why there is none.
+    #[serde(flatten)]
+    pub threshold: Threshold,
 }
 
 impl Plateau {
@@ -80,28 +86,26 @@ impl Plateau {
     pub fn factor(&self) -> f64 {
         self.to / self.from
     }
+}
 
-    /// Its geometric middle, to three digits so that it stays readable in the panel and in the session.
-    #[must_use]
-    pub fn middle(&self) -> f64 {
-        let middle = self.from.sqrt() * self.to.sqrt();
-        format!("{middle:.2e}").parse().unwrap_or(middle)
+impl fmt::Display for Plateau {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.least != self.most {
+            write!(f, "{} to ", self.least)?;
+        }
+        write!(f, "{} flagged", self.most)
     }
 }
 
 impl Sweep {
-    /// The plateaus and the suggestion for these counts, which must be by ascending value.
+    /// The plateaus and the suggestion for these counts, which must be by ascending value, of a channel with `judged`
+    /// samples. A value below `from`, the default of the parameter, is never suggested.
     #[must_use]
-    pub fn of(key: &'static str, points: Vec<Point>) -> Self {
-        let plateaus = plateaus(&points);
-        let suggestion = longest(&plateaus).map(Plateau::middle);
-        Self { key, points, plateaus, suggestion }
-    }
-
-    /// The plateau that the suggestion is the middle of.
-    #[must_use]
-    pub fn suggested(&self) -> Option<&Plateau> {
-        longest(&self.plateaus)
+    pub fn of(key: &'static str, points: Vec<Point>, judged: usize, from: Option<f64>) -> Self {
+        let few = |n: usize| n <= judged / LARGEST_SHARE;
+        let plateaus = plateaus(&points).into_iter().filter(|p| few(p.most)).collect();
+        let threshold = threshold::threshold(&points, few, from);
+        Self { key, points, plateaus, threshold }
     }
 }
 
@@ -135,8 +139,14 @@ pub fn sweep(
         one.settings.set(id, param.key, as_set)?;
         setups.push((value, one));
     }
-    let Some((first_value, first)) = setups.first() else { return Ok(Sweep::of(param.key, Vec::new())) };
     let series = input.series;
+    let from = match param.default {
+        Value::Real(x) => Some(x),
+        #[expect(clippy::cast_precision_loss, reason = "defaults are small")]
+        Value::Whole(n) => Some(n as f64),
+        _ => None,
+    };
+    let Some((first_value, first)) = setups.first() else { return Ok(Sweep::of(param.key, Vec::new(), 0, from)) };
     let base = Detection::of(input, first, stop)?;
     let rest = setups[1..].par_iter().map(|(value, one)| {
         let detection = match base.regated(input, one, stop)? {
@@ -148,11 +158,7 @@ pub fn sweep(
     let rest: Vec<Point> = rest.collect::<Result<_>>()?;
     let mut points = vec![count(*first_value, &base, series, truth, stop)?];
     points.extend(rest);
-    let mut sweep = Sweep::of(param.key, points);
-    if matches!(param.kind, Kind::Whole { .. } | Kind::WholeOrOff { .. }) {
-        sweep.suggestion = sweep.suggestion.map(f64::round);
-    }
-    Ok(sweep)
+    Ok(Sweep::of(param.key, points, series.len(), from))
 }
 
 fn count(

@@ -510,6 +510,15 @@ impl TimeFormat {
 }
 
 impl Track {
+    /// A value as a cell of a channel has it: with the decimals of its column.
+    #[must_use]
+    pub fn rounded(&self, channel: &Channel, value: f64) -> f64 {
+        match self.dialect.styles.get(channel.column) {
+            Some(Some(style)) if value.is_finite() => style.rounded(value),
+            _ => value,
+        }
+    }
+
     /// The truth about a channel: the truth column that the user named; one that was recognised only where its name
     /// fits, so that `vx_truth_outlier` is about `vx_mps` and not about `alt_m`.
     #[must_use]

@@ -6,7 +6,7 @@ use super::flagged::Flagged;
 use super::{Section, Table};
 use crate::param::{Param, Settings, Value};
 use crate::repair;
-use crate::session::{Outcome, Plan, Preset};
+use crate::session::{Counts, Outcome, Plan, Preset};
 use crate::track::{Samples, Track};
 
 /// The section about the channel of `plan`, with its table of flags.
@@ -23,7 +23,8 @@ pub(super) fn section(
     let unit = if channel.unit.is_empty() { String::new() } else { format!(" [{}]", channel.unit) };
     let rate = plan.setup.rate.as_ref().map_or(String::new(), |rate| format!(", with the rate {rate}"));
     let chosen = repair::chosen(&plan.setup.repair);
-    let mut notes = summary.warnings.clone();
+    let calibration = summary.calibration.as_ref().map(|found| format!("the record: {}", found.words));
+    let mut notes: Vec<String> = calibration.into_iter().chain(summary.warnings.iter().cloned()).collect();
     notes.extend(summary.score.as_ref().map(|s| format!("against the truth column: {}", score_line(s))));
     notes.extend(
         summary
@@ -35,6 +36,7 @@ pub(super) fn section(
     if summary.restarts.len() > 20 {
         notes.push(format!("… and {} times more", summary.restarts.len() - 20));
     }
+    let listed = if flags.rows.is_empty() { nothing_listed(&summary.counts) } else { rest };
     Section {
         title: format!("{}{unit}", plan.channel),
         method: format!(
@@ -50,7 +52,16 @@ pub(super) fn section(
         notes,
         figures: figures(track, series, outcome),
         flags,
-        rest,
+        listed,
+    }
+}
+
+/// That no sample is listed, and of how many that is said.
+fn nothing_listed(counts: &Counts) -> String {
+    let nothing = "No sample is flagged, suspect or decided on";
+    match counts.unchecked {
+        0 => format!("{nothing}."),
+        n => format!("{nothing}; {n} of {} could not be judged.", counts.present),
     }
 }
 

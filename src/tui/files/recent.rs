@@ -130,6 +130,20 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
+    fn nobody_else_may_read_the_list_an_older_one_included() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let folder = tempfile::tempdir().unwrap();
+        let list = folder.path().join("recent");
+        let mode = || std::fs::metadata(&list).unwrap().permissions().mode() & 0o777;
+        remember(&list, Path::new("/a/1.csv")).unwrap();
+        assert_eq!(mode(), 0o600);
+        std::fs::set_permissions(&list, std::fs::Permissions::from_mode(0o644)).unwrap();
+        remember(&list, Path::new("/a/2.csv")).unwrap();
+        assert_eq!(mode(), 0o600);
+    }
+
+    #[cfg(unix)]
+    #[test]
     fn any_name_comes_back() {
         use std::os::unix::ffi::OsStringExt as _;
         let folder = tempfile::tempdir().unwrap();

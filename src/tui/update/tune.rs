@@ -8,7 +8,7 @@ use super::{checks, list_of, picker, prompt, set_up};
 use crate::error::on_one_line;
 use crate::method::{METHODS, Method};
 use crate::param::{Settings, Value};
-use crate::session::sweep::multiplier;
+use crate::session::sweep::{Threshold, multiplier};
 use crate::session::{Preset, Setup};
 
 pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
@@ -254,7 +254,7 @@ pub(super) fn advise(model: &Model, plan: usize) -> Vec<Effect> {
     if sweep || steps { vec![Effect::Advise(plan)] } else { Vec::new() }
 }
 
-/// Sets the multiplier to the middle of the longest plateau of the counts.
+/// Sets the multiplier to the suggested threshold.
 pub(super) fn take_suggestion(model: &mut Model) -> Vec<Effect> {
     let plan = model.shown;
     let Some(sweep) = model.advice().map(|a| a.sweep.clone()) else {
@@ -277,21 +277,18 @@ pub(super) fn take_suggestion(model: &mut Model) -> Vec<Effect> {
             }
         };
     };
-    match (sweep.suggestion, sweep.suggested()) {
-        (Some(value), Some(plateau)) => {
-            let (least, most, from, to) = (plateau.least, plateau.most, plateau.from, plateau.to);
-            let effects = set_key(model, sweep.key, &value.to_string()).unwrap_or_default();
-            let count = if least == most { least.to_string() } else { format!("{least} to {most}") };
-            let text = format!(
-                "{} {value}: {count} flagged from {from:.1} to {to:.1} · {} undo",
-                sweep.key,
-                model.key(Action::Undo)
+    match sweep.threshold {
+        Threshold::Suggested { suggestion, range } => {
+            let effects = set_key(model, sweep.key, &suggestion.to_string()).unwrap_or_default();
+            let (from, to, undo) = (range.from, range.to, model.key(Action::Undo));
+            model.say(
+                Tone::Done,
+                format!("{} {suggestion}: {range} from {from:.1} to {to:.1} · {undo} undo", sweep.key),
             );
-            model.say(Tone::Done, text);
             effects
         }
-        _ => {
-            model.say(Tone::Warning, "no clear gap between noise and wild points: no threshold suggests itself");
+        Threshold::None { no_suggestion } => {
+            model.say(Tone::Warning, format!("no threshold is suggested: {no_suggestion}"));
             Vec::new()
         }
     }

@@ -208,17 +208,19 @@ fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>, nar
             n => said.push(format!("  {} of a patch of {n}", i - run.start + 1)),
         }
     }
-    let outcome = written(drawn, series, i, mark, narrow);
+    let outcome = written(model, drawn, series, i, mark, narrow);
     let outcome = vec![Span::styled(format!(" → {outcome}"), theme.text)];
     let said = said.into_iter().map(|text| vec![Span::styled(text, theme.dim)]);
     std::iter::once(outcome).chain(said).collect()
 }
 
 /// What the cleaned file will have.
-fn written(drawn: &Drawn, series: &Series<'_>, i: usize, mark: Option<&Mark>, narrow: bool) -> String {
+fn written(model: &Model, drawn: &Drawn, series: &Series<'_>, i: usize, mark: Option<&Mark>, narrow: bool) -> String {
     let wild = mark.map_or(Verdict::Normal, Mark::effective) == Verdict::Outlier;
     match drawn.outcome.fix(i) {
-        Some(fix) if wild && fix.is_finite() => format!("repaired to {}", short(fix)),
+        Some(fix) if wild && fix.is_finite() => {
+            format!("repaired to {}", short(model.track.rounded(model.channel(), fix)))
+        }
         Some(_) if wild && narrow => "removed, empty".into(),
         Some(_) if wild => "removed, the cell stays empty".into(),
         _ if wild => "…".into(),

@@ -13,6 +13,7 @@ use super::super::words::key;
 use super::{clear, compare, fit, heading, thousands};
 use crate::param::Value;
 use crate::plot::Drawn;
+use crate::session::sweep::Threshold;
 use crate::track::printable;
 
 /// The rows of the panel below its heading.
@@ -45,7 +46,10 @@ impl Rows {
             }
         }
         // Facts take what is left, and no knob its row.
-        for fact in model.plan().setup.method.notes(&model.plan().setup.settings) {
+        let calibration = model.state().drawn.as_ref().and_then(|d| d.outcome.detection.calibration.as_deref());
+        let record = calibration.map(|found| format!("the record: {}", found.words(&model.channel().unit).join("; ")));
+        let facts = model.plan().setup.method.notes(&model.plan().setup.settings);
+        for fact in record.into_iter().chain(facts) {
             let block = wrapped(&fact, width);
             if notes.len() + block.len() + knobs <= height {
                 notes.extend(block.into_iter().map(|line| (line, false)));
@@ -135,10 +139,8 @@ fn blocks(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
         help.extend(block(&format!("{} [{}], default {}{paper}", p.help, p.range(), p.default), false));
         blocks.push(help);
     }
-    let mut warnings = setup.method.warnings(&setup.settings);
-    if let Some(drawn) = model.state().drawn.as_ref().filter(|_| !model.state().stale) {
-        warnings.extend(drawn.outcome.detection.judged.warnings().iter().cloned());
-    }
+    let fresh = drawn.filter(|_| !model.state().stale);
+    let warnings = fresh.map_or_else(|| setup.method.warnings(&setup.settings), |drawn| drawn.outcome.warnings());
     blocks.extend(warnings.iter().map(|warning| block(warning, true)));
     blocks.extend(drawn.map(|drawn| counts(drawn, width)));
     if !about_it {
@@ -167,13 +169,12 @@ fn advice_rows(model: &Model, advice: &Advice, width: usize) -> Vec<(String, boo
     let mark = (0..columns).take_while(|c| at(*c).value <= now).count().saturating_sub(1);
     let ends = [sweep.points.first(), sweep.points.last()].map(|p| p.map_or(0.0, |p| p.value));
     let scale = format!("{:>mark$}^", "");
-    let words = match (sweep.suggestion, sweep.suggested()) {
-        (Some(value), Some(p)) => {
-            let count = if p.least == p.most { p.most.to_string() } else { format!("{} to {}", p.least, p.most) };
+    let words = match sweep.threshold {
+        Threshold::Suggested { suggestion, range } => {
             let f = key(&model.keys, Action::Suggested);
-            format!("{f} takes {} {value}: {count} flagged from {:.1} to {:.1}", sweep.key, p.from, p.to)
+            format!("{f} takes {} {suggestion}: {range} from {:.1} to {:.1}", sweep.key, range.from, range.to)
         }
-        _ => "no clear gap between noise and wild points".to_owned(),
+        Threshold::None { no_suggestion } => no_suggestion.to_string(),
     };
     let head = format!("flagged for {} from {} to {}", sweep.key, ends[0], ends[1]);
     let mut rows = vec![(head, false), (curve, false), (scale, false)];

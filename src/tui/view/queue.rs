@@ -12,10 +12,20 @@ use super::super::plot::{FlagState, Glyphs};
 use super::super::update::{mark_at, queue};
 use super::{NOT_JUDGED, clear, heading, several_days, thousands};
 use crate::plot::state;
+use crate::session::Counts;
 use crate::track::{Series, without_signed_zero};
 
 /// Columns of the rows of a run and of its length.
 const ROWS: usize = 17;
+
+/// That nothing is flagged, and of how much that is said.
+fn nothing_flagged(counts: Counts) -> String {
+    match counts.unchecked {
+        0 => "nothing is flagged".into(),
+        all if all == counts.present => "no sample could be judged".into(),
+        some => format!("nothing is flagged, {} not judged", thousands(some)),
+    }
+}
 
 /// Draws the queue. `beside_card`: whether the card is on the screen, which says how many flags there are; the queue
 /// does not repeat it then, since it would go over the wire twice at each step.
@@ -34,7 +44,8 @@ pub(super) fn draw(model: &Model, beside_card: bool, area: Rect, buffer: &mut Bu
     let words = [Span::styled(format!("{by}  {count}"), theme.dim)];
     let mut body = heading(model, Panel::Queue, &words, area, buffer);
     if all.is_empty() {
-        let words = if model.state().drawn.is_some() { "nothing is flagged" } else { NOT_JUDGED };
+        let counts = model.state().drawn.as_ref().map(|drawn| drawn.outcome.counts);
+        let words = counts.map_or_else(|| NOT_JUDGED.into(), nothing_flagged);
         Line::styled(format!(" {words}"), theme.dim).render(body, buffer);
         return;
     }

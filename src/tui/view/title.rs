@@ -78,6 +78,9 @@ fn right_side(model: &Model, width: u16) -> Line<'static> {
                     spans.push(Span::styled(count, theme.flag(flag)));
                 }
             }
+            if counts.unchecked > 0 {
+                spans.push(Span::styled(format!(" {} unchecked", thousands(counts.unchecked)), theme.dim));
+            }
             if counts.conflicts > 0 {
                 spans.push(Span::styled(format!(" !{}", counts.conflicts), theme.warning));
             }

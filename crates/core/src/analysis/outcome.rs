@@ -84,6 +84,9 @@ pub struct Outcome {
     pub fills: Vec<Fill>,
     /// How many of what.
     pub counts: Counts,
+    /// What should be looked at before it is trusted, a line each: more than 5 % flagged, more than 5 % not judged,
+    /// with the likely cause.
+    pub doubts: Vec<String>,
 }
 
 /// How many samples of a channel are what.
@@ -126,6 +129,16 @@ fn is_zero(n: &usize) -> bool {
 }
 
 impl Outcome {
+    /// What the user should know, a line each: settings that cannot work, what the method ran into, and the doubts.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let setup = &self.detection.setup;
+        let mut all = setup.method.warnings(&setup.settings);
+        all.extend(self.detection.judged.warnings().iter().cloned());
+        all.extend(self.doubts.iter().cloned());
+        all
+    }
+
     /// The mark of the sample at `position`, if somebody has something to say about it.
     #[must_use]
     #[inline]

@@ -2,8 +2,9 @@
 
 use std::ops::RangeInclusive;
 
+use super::{FROM, STEPS, TO};
 use crate::error::{Error, Result};
-use crate::param::{Kind, Param, find};
+use crate::param::{Kind, Param, Value, find};
 use crate::setup::Setup;
 
 /// More values than this are a slip of the finger.
@@ -30,6 +31,19 @@ pub fn multiplier(setup: &Setup) -> Result<&'static Param> {
         format!("{} does not matter to {} under these settings", param.key, about.id),
         "leave the tolerance automatic, or name another parameter with --param",
     ))
+}
+
+/// The values that a sweep of a multiplier takes when none are named, ascending: a logarithmic grid, and the default,
+/// so that a suggestion can confirm it.
+#[must_use]
+pub fn usual_values(param: &Param) -> Vec<f64> {
+    let mut values = logarithmic(FROM, TO, STEPS);
+    if let Value::Real(default) = param.default
+        && let Err(at) = values.binary_search_by(|v| v.total_cmp(&default))
+    {
+        values.insert(at, default);
+    }
+    values
 }
 
 /// The numbers that a parameter takes; none when it takes none.
@@ -77,13 +91,23 @@ pub fn grid(from: f64, to: f64, steps: usize, log: bool) -> Result<Vec<f64>> {
     if !(2..=MOST_STEPS).contains(&steps) {
         return Err(Error::usage(format!("{steps} steps make no sweep"), format!("give --steps 2 .. {MOST_STEPS}")));
     }
+    if log {
+        return Ok(logarithmic(from, to, steps));
+    }
+    let last = steps - 1;
+    #[expect(clippy::cast_precision_loss, reason = "at most ten thousand")]
+    let at = |i: usize| if i == last { to } else { from + (to - from) * (i as f64 / last as f64) };
+    Ok((0..steps).map(at).collect())
+}
+
+/// `steps` values from `from` to `to` in equal ratios, both ends to the bit.
+fn logarithmic(from: f64, to: f64, steps: usize) -> Vec<f64> {
     let last = steps - 1;
     #[expect(clippy::cast_precision_loss, reason = "at most ten thousand")]
     let at = |i: usize| match i {
         0 => from,
         i if i == last => to,
-        i if log => from * (to / from).powf(i as f64 / last as f64),
-        i => from + (to - from) * (i as f64 / last as f64),
+        i => from * (to / from).powf(i as f64 / last as f64),
     };
-    Ok((0..steps).map(at).collect())
+    (0..steps).map(at).collect()
 }

@@ -7,37 +7,33 @@ fn points(counts: &[(f64, usize)]) -> Vec<Point> {
     counts.iter().map(|&(value, flagged)| Point { value, flagged, missed: None, false_alarms: None }).collect()
 }
 
-fn found(counts: &[(f64, usize)]) -> (Vec<(f64, f64)>, Option<f64>) {
-    let sweep = Sweep::of("k", points(counts));
-    (sweep.plateaus.iter().map(|p| (p.from, p.to)).collect(), sweep.suggestion)
-}
-
-#[test]
-fn the_longest_range_of_a_still_count_gives_its_geometric_middle() {
-    let counts = [(1.0, 900), (2.0, 300), (4.0, 60), (8.0, 28), (16.0, 28), (32.0, 27), (64.0, 3), (128.0, 0)];
-    assert_eq!(found(&counts), (vec![(8.0, 32.0)], Some(16.0)));
+fn plateaus_of(counts: &[(f64, usize)]) -> Vec<(f64, f64)> {
+    let sweep = Sweep::of("k", points(counts), 10_000, None);
+    sweep.plateaus.iter().map(|p| (p.from, p.to)).collect()
 }
 
 #[test]
 fn a_count_of_zero_is_no_plateau_and_neither_is_a_short_one() {
-    assert_eq!(found(&[(1.0, 9), (2.0, 0), (4.0, 0), (8.0, 0)]), (vec![], None));
-    assert_eq!(found(&[(1.0, 1), (2.0, 0), (4.0, 0)]), (vec![], None), "one and none differ by one");
-    assert_eq!(found(&[(1.0, 9), (1.4, 9), (2.0, 3), (2.9, 0)]), (vec![], None), "1.4 is below a factor of 1.5");
-    assert_eq!(found(&[(1.0, 9), (1.5, 9), (2.0, 3), (2.9, 0)]), (vec![(1.0, 1.5)], Some(1.22)));
+    assert_eq!(plateaus_of(&[(1.0, 9), (2.0, 0), (4.0, 0), (8.0, 0)]), []);
+    assert_eq!(plateaus_of(&[(1.0, 1), (2.0, 0), (4.0, 0)]), [], "one and none differ by one");
+    assert_eq!(plateaus_of(&[(1.0, 9), (1.4, 9), (2.0, 3), (2.9, 0)]), [], "1.4 is below a factor of 1.5");
+    assert_eq!(plateaus_of(&[(1.0, 9), (1.5, 9), (2.0, 3), (2.9, 0)]), [(1.0, 1.5)]);
 }
 
 #[test]
 fn two_per_cent_or_one_may_come_and_go() {
-    assert_eq!(found(&[(1.0, 100), (2.0, 98)]).0, [(1.0, 2.0)]);
-    assert_eq!(found(&[(1.0, 100), (2.0, 97)]).0, []);
-    assert_eq!(found(&[(1.0, 5), (2.0, 4), (4.0, 3)]).0, [(1.0, 2.0)], "over the whole range, not step by step");
-    assert_eq!(found(&[(1.0, 4), (2.0, 5), (4.0, 4)]).0, [(1.0, 4.0)], "a count may also grow");
+    assert_eq!(plateaus_of(&[(1.0, 100), (2.0, 98)]), [(1.0, 2.0)]);
+    assert_eq!(plateaus_of(&[(1.0, 100), (2.0, 97)]), []);
+    assert_eq!(plateaus_of(&[(1.0, 5), (2.0, 4), (4.0, 3)]), [(1.0, 2.0)], "over the whole range, not step by step");
+    assert_eq!(plateaus_of(&[(1.0, 4), (2.0, 5), (4.0, 4)]), [(1.0, 4.0)], "a count may also grow");
 }
 
 #[test]
-fn plateaus_do_not_overlap_and_of_equal_ones_the_first_is_suggested() {
+fn plateaus_do_not_overlap_and_saturation_is_none() {
     let counts = [(1.0, 50), (2.0, 50), (4.0, 50), (8.0, 9), (16.0, 9), (32.0, 9), (64.0, 2), (128.0, 2)];
-    assert_eq!(found(&counts), (vec![(1.0, 4.0), (8.0, 32.0), (64.0, 128.0)], Some(2.0)));
+    assert_eq!(plateaus_of(&counts), [(1.0, 4.0), (8.0, 32.0), (64.0, 128.0)]);
+    let sweep = Sweep::of("k", points(&counts), 400, None);
+    assert_eq!(sweep.plateaus.first().map(|p| p.from), Some(8.0), "50 of 400 are more than a tenth");
 }
 
 #[test]
@@ -120,13 +116,22 @@ fn a_sweep_nobody_waits_for_ends() {
 
 #[test]
 fn a_plateau_knows_its_counts_and_begins_above_zero() {
-    let sweep = Sweep::of("k", points(&[(1.0, 100), (2.0, 98)]));
+    let sweep = Sweep::of("k", points(&[(1.0, 100), (2.0, 98)]), 10_000, None);
     assert_eq!((sweep.plateaus[0].least, sweep.plateaus[0].most), (98, 100));
-    assert_eq!(found(&[(0.0, 5), (1.0, 5), (2.0, 5)]).0, [(1.0, 2.0)], "no factor leads away from 0");
+    assert_eq!(plateaus_of(&[(0.0, 5), (1.0, 5), (2.0, 5)]), [(1.0, 2.0)], "no factor leads away from 0");
 }
 
 #[test]
-fn the_longest_plateau_is_suggested_wherever_it_stands() {
-    let counts = [(1.0, 50), (2.0, 50), (4.0, 9), (8.0, 9), (16.0, 9)];
-    assert_eq!(found(&counts), (vec![(1.0, 2.0), (4.0, 16.0)], Some(8.0)));
+fn the_default_is_among_the_usual_values_and_is_confirmed_where_it_stands_clear() {
+    for id in ["hampel", "two-sided", "kalman"] {
+        let (t, y, setup) = demo(id);
+        let series = Series::new(&t, &y);
+        let param = multiplier(&setup).unwrap();
+        let values = usual_values(param);
+        assert!(values.is_sorted() && values.len() == STEPS + 1, "{id}");
+        let swept = sweep(Input::new(&series, None), None, &setup, (param, &values), &Stop::never()).unwrap();
+        let Threshold::Suggested { suggestion, range } = swept.threshold else { panic!("{id}: no suggestion") };
+        let Value::Real(default) = param.default else { panic!("{id}") };
+        assert_eq!((suggestion, range.least), (default, 4), "{id}: the four wild points");
+    }
 }

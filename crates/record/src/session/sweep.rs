@@ -8,7 +8,9 @@ use crate::param::Param;
 use crate::stop::Stop;
 use crate::track::{Channel, Samples, Track};
 
-pub use wildpoint_core::sweep::{FROM, Plateau, Point, STEPS, Sweep, TO, grid, multiplier, numeric};
+pub use wildpoint_core::sweep::{
+    FROM, Plateau, Point, STEPS, Sweep, TO, Threshold, grid, multiplier, numeric, usual_values,
+};
 
 /// Counts what the method of `setup` flags for each of `values` (ascending) of its parameter `param`, as
 /// [`wildpoint_core::sweep::sweep`] does.

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::{Analysed, Outcome, Place, Session};
 use crate::error::{Error, Result};
 use crate::method::Verdict;
-use crate::track::{Cells, Series, Track, for_each_row, inert};
+use crate::track::{Cells, Channel, Series, Track, for_each_row, inert};
 
 /// One channel of a result, walked row by row.
 #[derive(Debug)]
@@ -18,6 +18,8 @@ pub struct Walk<'a> {
     pub outcome: &'a Outcome,
     /// Index of its plan.
     pub plan: usize,
+    track: &'a Track,
+    channel: &'a Channel,
     next: usize,
     /// The rows of its target that are still to come, in a table of several tracks.
     own: Option<&'a [u32]>,
@@ -48,7 +50,8 @@ impl Walk<'_> {
     #[must_use]
     pub fn clean(&self, position: usize) -> Option<f64> {
         let fix = self.outcome.fix(position);
-        fix.map_or(Some(self.series.y[position]), |v| v.is_finite().then_some(v))
+        let rounded = |v: f64| v.is_finite().then(|| self.track.rounded(self.channel, v));
+        fix.map_or(Some(self.series.y[position]), rounded)
     }
 
     /// The value that fills the missing sample of `row`, if any.
@@ -56,7 +59,7 @@ impl Walk<'_> {
     pub fn fill(&self, row: usize) -> Option<f64> {
         let place = Place::Cell(row);
         let at = self.outcome.fills.binary_search_by_key(&place, |f| f.place).ok()?;
-        self.outcome.fills.get(at).map(|f| f.value)
+        self.outcome.fills.get(at).map(|f| self.track.rounded(self.channel, f.value))
     }
 
     /// The measured value of a row that is not present (no usable time), if its cell is a number.
@@ -88,6 +91,8 @@ pub fn walk(
             name: &session.plans[plan].channel,
             outcome,
             plan,
+            track,
+            channel,
             next: 0,
             own: channel.target.as_ref().map(|t| &*t.rows),
         });

@@ -155,7 +155,7 @@ fn number(text: &str, decimal_comma: bool) -> Option<(usize, f64, Option<Oddity>
     let mut length = text[from..].find(|c| !in_number(c)).map_or(text.len(), |at| from + at);
     // A blank is one between thousands only with three digits after it.
     while let Some(last) =
-        text[..length].chars().next_back().filter(|c| !c.is_ascii_digit() && (*c != '.' || length > from + 40))
+        text[from..length].chars().next_back().filter(|c| !c.is_ascii_digit() && (*c != '.' || length > from + 40))
     {
         length -= last.len_utf8();
     }

@@ -44,6 +44,12 @@ impl Style {
         format!("{}{number}{}", &old[..range.start], &old[range.end..])
     }
 
+    /// `value` with the decimals of the column.
+    #[must_use]
+    pub fn rounded(&self, value: f64) -> f64 {
+        self.fixed(value).parse().unwrap_or(value)
+    }
+
     fn number(&self, value: f64, old: &str, reading: &Reading) -> String {
         if old.starts_with("0x") || old.starts_with("0X") {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]

@@ -65,7 +65,7 @@ fn facts(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> V
     if let Some(drawn) = &model.state().drawn {
         judgement(model, drawn, series, i, &mut facts);
         let repair = crate::repair::chosen(&drawn.outcome.detection.setup.repair);
-        let mut text = written(drawn, series, i, mark, false);
+        let mut text = written(model, drawn, series, i, mark, false);
         if drawn.outcome.fix(i).is_some() {
             text.push_str(&format!(" (repair {})", repair.id));
         }
