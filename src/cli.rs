@@ -389,16 +389,10 @@ impl Load {
     /// What the loader needs; the rate channel is loaded beside the channels that were named.
     #[must_use]
     pub fn options(&self, rate: Option<&str>) -> LoadOptions {
-        let mut channels = self.channel.clone();
-        if let Some(rate) = rate
-            && !channels.is_empty()
-            && !channels.iter().any(|c| c == rate)
-        {
-            channels.push(rate.to_owned());
-        }
         LoadOptions {
             time: self.time.clone(),
-            channels,
+            channels: self.channel.clone(),
+            beside: rate.map(str::to_owned).into_iter().collect(),
             truth: self.truth.clone(),
             track: self.track.clone(),
             missing: self.missing.clone(),

@@ -276,11 +276,7 @@ fn notes(text: &str, options: &LoadOptions) -> Vec<String> {
 
 #[test]
 fn a_time_column_that_cannot_be_read_is_told() {
-    for (first, second) in [
-        ("2024-03-31 01:30:00 CET", "2024-03-31 01:30:01 CET"),
-        ("03/31/2024 01:30:00 PM", "03/31/2024 01:30:01 PM"),
-        ("31 Mar 2024 01:30:00", "31 Mar 2024 01:30:01"),
-    ] {
+    for (first, second) in [("three o'clock", "four o'clock"), ("2024-03-31 Q1", "2024-03-31 Q2")] {
         let text = format!("time,x\n{first},1\n{second},2\n");
         let told = notes(&text, &LoadOptions::default());
         let wanted =

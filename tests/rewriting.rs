@@ -7,7 +7,7 @@ use std::sync::Arc;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use wildpoint::track::{
-    CellChange, Changes, LoadOptions, NewRow, RowChecks, Source, Track, for_each_row, load, rewrite,
+    CellChange, Changes, LoadOptions, NewRow, RowChecks, Rules, Source, Track, for_each_row, load, rewrite,
 };
 
 /// How a generated file is laid out.
@@ -79,8 +79,9 @@ fn written(form: &Form, rows: &[Row]) -> Vec<u8> {
 }
 
 fn track(bytes: Vec<u8>, form: &Form) -> Track {
-    // A column of whole numbers does not show its decimal sign.
-    let options = LoadOptions { decimal_comma: Some(form.decimal_comma), ..LoadOptions::default() };
+    // A column of whole numbers does not show its decimal sign. By the first rules a changed cell has every digit.
+    let options =
+        LoadOptions { decimal_comma: Some(form.decimal_comma), rules: Rules::First, ..LoadOptions::default() };
     let source = Source::BuiltIn { name: "wildpoint:generated", bytes: Arc::from(bytes) };
     load(&source, &options).unwrap()
 }

@@ -47,12 +47,7 @@ fn one(
 ) -> Result<Summary> {
     let outputs = &target.outputs;
     let mut options = shared.load.options(shared.rate.as_deref());
-    if let Some(reference) = &shared.reference
-        && !options.channels.is_empty()
-        && !options.channels.contains(reference)
-    {
-        options.channels.push(reference.clone());
-    }
+    options.beside.extend(shared.reference.clone());
     let track = load(&Source::of(file)?, &options)?;
     let mut session = Session::new(&track, shared.load.options(None), setup);
     shared.prepare.prepare(&mut session, &track, shared.preset)?;

@@ -83,6 +83,7 @@ fn options(bytes: &mut Bytes<'_>) -> LoadOptions {
         _ => None,
     };
     LoadOptions {
+        beside: Vec::new(),
         time: [None, None, Some("#1".into()), Some("sample".into())][usize::from(first & 3)].clone(),
         delimiter: [
             None,

@@ -10,6 +10,8 @@ pub struct LoadOptions {
     pub time: Option<String>,
     /// The channels, by name or as `#3`. None: every numeric column that is neither time nor truth.
     pub channels: Vec<String>,
+    /// Columns of numbers that are needed beside the channels, whatever they look like: a rate, a reference.
+    pub beside: Vec<String>,
     /// The column that tells several tracks in one table apart, by name or as `#3`. None: all rows are one track.
     pub track: Option<String>,
     /// The truth column. Recognised: the only column of 0 and 1 with `truth` in its name.

@@ -28,6 +28,8 @@ pub(crate) struct Roles {
     pub(crate) truths: Vec<bool>,
     /// For each column, texts that stand where its numbers have not begun.
     pub(crate) late: Vec<Vec<String>>,
+    /// Columns that are needed as numbers, whatever they look like.
+    beside: Vec<usize>,
     /// By which rules.
     rules: Rules,
     /// Rows of the sample.
@@ -43,6 +45,10 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
     let mut channels =
         options.channels.iter().map(|name| targets::base(head, options, name)).collect::<Result<Vec<_>>>()?;
     let mut seen = vec![false; head.names.len()];
+    let beside = options.beside.iter().map(|name| targets::base(head, options, name)).collect::<Result<Vec<_>>>()?;
+    if !channels.is_empty() {
+        channels.extend(&beside);
+    }
     channels.retain(|c| !std::mem::replace(&mut seen[*c], true));
     let truth = options.truth.as_ref().map(find).transpose()?;
     let track = targets::column(head, options)?;
@@ -64,7 +70,7 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
         ColumnKind::Text if options.rules == Rules::Second && holds_truths(head, c, false) => {
             ColumnKind::Aside(Aside::Flag)
         }
-        ColumnKind::Number if options.rules == Rules::Second && !is_time(c) => {
+        ColumnKind::Number if options.rules == Rules::Second && !is_time(c) && !beside.contains(&c) => {
             aside::by_sample(head, c, timing).map_or(ColumnKind::Number, ColumnKind::Aside)
         }
         kind => kind,
@@ -102,6 +108,7 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
         track,
         truths,
         late,
+        beside,
         rules: options.rules,
         rows: head.sample.len(),
         unread,
@@ -111,7 +118,7 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
 impl Roles {
     /// The kind of a parsed column: numbers where they are the majority of what is there.
     pub(crate) fn kind(&self, index: usize, name: &str, numbers: &Numbers) -> ColumnKind {
-        let told = self.channels.as_ref().is_some_and(|c| c.contains(&index));
+        let told = self.channels.as_ref().is_some_and(|c| c.contains(&index)) || self.beside.contains(&index);
         let all_bits = || numbers.values.iter().all(|v| v.is_nan() || *v == 0.0 || *v == 1.0);
         if numbers.present == 0 {
             let text = numbers.unreadable.count > 0 || self.late.get(index).is_some_and(|l| !l.is_empty());

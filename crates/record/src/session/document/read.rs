@@ -302,6 +302,7 @@ impl Reader<'_> {
             table: data.table,
             rules: self.rules(data.rules)?,
             channels: Vec::new(),
+            beside: Vec::new(),
         };
         Ok(Data {
             source,

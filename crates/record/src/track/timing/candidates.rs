@@ -1,5 +1,6 @@
 //! Choosing the time among the columns: by what their cells hold and whether it goes forward; names only break ties.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::super::head::Head;
@@ -68,6 +69,16 @@ impl Steps {
     /// True where it also moves on in most rows.
     pub(crate) fn moves_on(self) -> bool {
         self.one_way() && self.repeated <= self.forward.max(self.back)
+    }
+
+    /// The steps of two tracks together.
+    fn and(self, other: Self) -> Self {
+        Self {
+            forward: self.forward + other.forward,
+            back: self.back + other.back,
+            repeated: self.repeated + other.repeated,
+            usual: self.usual.max(other.usual),
+        }
     }
 
     fn total(self) -> usize {
@@ -206,22 +217,39 @@ impl<'a> Candidates<'a> {
         if self.head.sample.len() < 2 {
             return (rank == 4).then_some(2);
         }
-        let several = |c: &usize| {
-            let cells = self.head.column(*c);
-            cells.iter().any(|cell| cell != &cells[0])
+        let goes_on = || {
+            steps.moves_on()
+                || self.ids(column).any(|id| self.steps_by_track(&self.number_timing(column), id).moves_on())
         };
-        let is_id = |c: &usize| *c != column && super::super::roles::is_id_column(&self.head.names[*c]);
-        let told_apart = || (0..self.head.names.len()).filter(is_id).any(|c| several(&c));
-        if rank >= 3 && steps.one_way() || rank > 0 && (steps.moves_on() || steps.one_way() && told_apart()) {
-            return Some(2);
-        }
-        // Tracks that follow each other begin again.
-        if rank > 0 && steps.forward > 4 * steps.back && told_apart() {
+        if rank >= 3 && steps.one_way() || rank > 0 && goes_on() {
             return Some(2);
         }
         // Digits that are dates need no name.
         let cells = self.head.column(column);
         (super::super::time::digits_are_dates(&cells) && steps.one_way() && cells.len() > 2).then_some(3)
+    }
+
+    /// The columns that may tell tracks apart: the one that was told, otherwise those with the name of an id.
+    fn ids(&self, time: usize) -> impl Iterator<Item = usize> + '_ {
+        let names = &self.head.names;
+        let told = self.options.track.as_deref();
+        let told = told.map(|told| names::find(names.iter().map(String::as_str), told).ok());
+        let is_id = move |c: &usize| match told {
+            Some(told) => told == Some(*c),
+            None => super::super::roles::is_id_column(&names[*c]),
+        };
+        (0..names.len()).filter(move |c| *c != time).filter(is_id)
+    }
+
+    /// How the sampled rows of each track follow each other, all tracks together.
+    fn steps_by_track(&self, timing: &Timing, id: usize) -> Steps {
+        let mut tracks: BTreeMap<&str, Vec<i64>> = BTreeMap::new();
+        for row in self.sampled() {
+            if let (Some(id), Some(moment)) = (row.get(id), self.moment(timing, row)) {
+                tracks.entry(id).or_default().push(moment);
+            }
+        }
+        tracks.values().map(|moments| Steps::of(moments)).fold(Steps::default(), Steps::and)
     }
 
     /// A first column without a name that says more, which goes forward evenly: the time of a table of measurements.
@@ -401,21 +429,25 @@ impl<'a> Candidates<'a> {
         finer
     }
 
+    /// The sampled rows with as many cells as rows have.
+    fn sampled(&self) -> impl Iterator<Item = &'a Vec<String>> {
+        self.head.sample.iter().filter(|row| self.head.counts.contains(&row.len()))
+    }
+
+    fn moment(&self, timing: &Timing, row: &[String]) -> Option<i64> {
+        let cell = |c: usize| row.get(c).map_or(&[][..], |c: &String| c.as_bytes());
+        match timing.read(cell, self.head.reading.decimal_comma)? {
+            Count::Exact(ns) => Some(ns),
+            Count::Inexact(seconds) => match super::nanoseconds(seconds * 1e9)? {
+                Count::Exact(ns) => Some(ns),
+                Count::Inexact(_) => None,
+            },
+        }
+    }
+
     /// The moments of the sampled rows.
     pub(crate) fn moments(&self, timing: &Timing) -> Vec<i64> {
-        let whole = |row: &&Vec<String>| self.head.counts.contains(&row.len());
-        let rows = self.head.sample.iter().filter(whole);
-        let moment = |row: &Vec<String>| {
-            let cell = |c: usize| row.get(c).map_or(&[][..], |c: &String| c.as_bytes());
-            match timing.read(cell, self.head.reading.decimal_comma)? {
-                Count::Exact(ns) => Some(ns),
-                Count::Inexact(seconds) => match super::nanoseconds(seconds * 1e9)? {
-                    Count::Exact(ns) => Some(ns),
-                    Count::Inexact(_) => None,
-                },
-            }
-        };
-        rows.filter_map(moment).collect()
+        self.sampled().filter_map(|row| self.moment(timing, row)).collect()
     }
 
     /// How the sampled rows follow each other under `timing`; midnights are no steps back.
