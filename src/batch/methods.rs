@@ -9,7 +9,7 @@ use super::{Ending, print, print_json};
 use crate::check::{CHECKS, Check};
 use crate::error::Result;
 use crate::method::{METHODS, Method};
-use crate::param::{Param, Value};
+use crate::param::Param;
 use crate::repair::{PARAMS, REPAIRS};
 use crate::session::method_of_id;
 use crate::wrapped::wrapped;
@@ -70,18 +70,8 @@ fn listed_param(param: &Param) -> ListedParam {
         help: one_line(param.help),
         unit: param.unit,
         values: param.range(),
-        default: json(param.default),
-        paper: param.paper.map(json),
-    }
-}
-
-fn json(value: Value) -> serde_json::Value {
-    match value {
-        Value::Whole(n) => n.into(),
-        Value::Real(x) => x.into(),
-        Value::Word(w) => w.into(),
-        Value::Switch(b) => b.into(),
-        Value::Numbers(list) => list.as_slice().to_vec().into(),
+        default: serde_json::json!(param.default),
+        paper: param.paper.map(|v| serde_json::json!(v)),
     }
 }
 

@@ -53,7 +53,7 @@ const METHODS: [(&str, &str, Preset, Keys); 5] = [
     ("alpha-beta-gamma", ALPHA_BETA_GAMMA, Preset::Default, &[("sigma", SIGMA), ("alpha", "0.4")]),
     ("adaptive", ADAPTIVE, Preset::Default, &[("sigma", SIGMA)]),
     ("adaptive", PRINTED, Preset::Paper, &[("sigma", SIGMA), ("max_run", "12")]),
-    ("matched", MATCHED, Preset::Default, &[]),
+    ("matched", MATCHED, Preset::Default, &[("window", "31"), ("repair_rule", "expected")]),
 ];
 const FIVE_POINT: &str = "five-point";
 const ALPHA_BETA_GAMMA: &str = "alpha-beta-gamma";

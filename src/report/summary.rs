@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::inspection::remarks;
 use crate::error::{Error, Result};
 use crate::method::{Verdict, Way};
-use crate::param::{Settings, Value};
+use crate::param::Settings;
 use crate::score::{FinalError, Scores, final_error};
 use crate::session::{Analysed, Counts, Detection, Outcome, Session};
 use crate::track::{Track, printable};
@@ -281,12 +281,5 @@ fn calibration(detection: &Detection, unit: &str) -> Option<CalibrationSummary> 
 }
 
 fn json_settings(settings: &Settings) -> serde_json::Map<String, serde_json::Value> {
-    let value = |v: Value| match v {
-        Value::Whole(n) => n.into(),
-        Value::Real(x) => x.into(),
-        Value::Word(w) => w.into(),
-        Value::Switch(b) => b.into(),
-        Value::Numbers(list) => list.as_slice().to_vec().into(),
-    };
-    settings.iter().map(|(p, v)| (p.key.to_owned(), value(v))).collect()
+    settings.iter().map(|(p, v)| (p.key.to_owned(), serde_json::json!(v))).collect()
 }

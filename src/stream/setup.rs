@@ -125,6 +125,12 @@ fn fits(key: &str, now: Value, needed: Value) -> bool {
 /// Refuses what `--set` asks for and a stream cannot do.
 fn check(plan: &Plan, args: &StreamArgs) -> Result<()> {
     let (id, settings) = (plan.method.about().id, &plan.settings);
+    if let Some((param, value)) = settings.iter().find(|(_, value)| matches!(value, Value::Duration(_))) {
+        return Err(Error::usage(
+            format!("{} = {value}: a stream does not know its interval yet", param.key),
+            format!("give {} as a number of samples: --set {}=N", param.key, param.key),
+        ));
+    }
     for (key, value, why) in NEEDED {
         if let Some(now) = settings.get(key)
             && !fits(key, now, value)

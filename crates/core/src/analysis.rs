@@ -126,6 +126,7 @@ impl Detection {
     /// # Errors
     /// As [`Detection::of`].
     pub fn calibrated(input: Input<'_>, setup: &Setup, previous: Option<&Self>, stop: &Stop) -> Result<Self> {
+        let setup = &setup.at_interval(input.series.interval);
         let about = setup.method.about();
         if about.needs_rate && input.rate.is_none() {
             return Err(Error::usage(
@@ -160,7 +161,8 @@ impl Detection {
             return Ok(None);
         }
         let judged = regated(self, setup, input.series, stop)?;
-        Ok(judged.map(|judged| Self { setup: setup.clone(), judged, ..self.clone() }))
+        let setup = setup.at_interval(input.series.interval);
+        Ok(judged.map(|judged| Self { setup, judged, ..self.clone() }))
     }
 
     /// Runs a method that judges channels together ([`Method::together`](crate::method::Method::together)) over all
@@ -169,6 +171,9 @@ impl Detection {
     /// # Errors
     /// [`Error::Stopped`]; [`Error::Memory`].
     pub fn together(channels: &[(Input<'_>, &Setup)], stop: &Stop) -> Result<Vec<Self>> {
+        let counted = |(input, setup): &(Input<'_>, &Setup)| setup.at_interval(input.series.interval);
+        let setups: Vec<Setup> = channels.iter().map(counted).collect();
+        let channels: Vec<(Input<'_>, &Setup)> = channels.iter().map(|c| c.0).zip(&setups).collect();
         let Some((_, first)) = channels.first() else { return Ok(Vec::new()) };
         let shares: Vec<Share> = channels.iter().map(|(input, _)| room(input.series)).collect::<Result<_>>()?;
         let sights = channels.iter().map(|(input, setup)| input.sight(setup, stop));
@@ -178,7 +183,7 @@ impl Detection {
         let series: Vec<&Series<'_>> = series.iter().collect();
         let parts = first.method.judge_together(&series, &first.settings, stop)?;
         let mut found = Vec::with_capacity(parts.len());
-        for (((part, (input, setup)), sight), share) in parts.into_iter().zip(channels).zip(&sights).zip(shares) {
+        for (((part, (input, setup)), sight), share) in parts.into_iter().zip(&channels).zip(&sights).zip(shares) {
             let part = Together { judged: part.judged.bounded(stop)?, ..part };
             let seen = Self::seen(setup, part, sight.clone(), input.series, stop)?;
             found.push(Self { share: kept(share), ..seen });
@@ -213,7 +218,8 @@ impl Detection {
     /// The same detection under a setup that differs in the repair alone.
     #[must_use]
     pub fn with_repair(&self, setup: &Setup) -> Self {
-        Self { setup: setup.clone(), ..self.clone() }
+        let interval = self.setup.settings.interval().unwrap_or(f64::NAN);
+        Self { setup: setup.at_interval(interval), ..self.clone() }
     }
 
     /// True when it is what [`Detection::of`] would find under this setup with these decisions, but for the repair.
@@ -327,13 +333,20 @@ pub fn settle(
             settled.mend(&seen, index, &outliers[from..to], inside, stop)?;
         }
     }
-    let Settled { fixes, runs, mut fills } = settled;
+    let Settled { fixes, runs, mut fills, notes } = settled;
     fills.sort_by_key(|f: &Fill| f.place);
     let mut counts = count(rows.count(), &detection, &marks, &fixes, &runs, fills.len(), stop)?;
     counts.by_checks = detection.checked().filter(|position| outliers.binary_search(position).is_ok()).count();
     drop(seen);
     let doubts = doubts::doubts(&detection, &counts);
-    Ok(Outcome { detection, marks, outliers, fixes, runs, fills, counts, doubts })
+    Ok(Outcome { detection, marks, outliers, fixes, runs, fills, counts, doubts, notes })
+}
+
+/// What a method's own repair puts in, and what should be known of it.
+#[derive(Debug, Default)]
+struct OwnRepair {
+    values: Vec<f64>,
+    notes: Vec<String>,
 }
 
 /// A channel as it was measured and as its method saw it.
@@ -346,7 +359,7 @@ struct Seen<'a> {
 impl Seen<'_> {
     /// What the method's own repair puts in place of `outliers` of the segment with this index, and for those that the
     /// method did not see, what the check does that objects to them.
-    fn own_repair(&self, index: usize, outliers: &[usize], stop: &Stop) -> std::result::Result<Vec<f64>, Stopped> {
+    fn own_repair(&self, index: usize, outliers: &[usize], stop: &Stop) -> std::result::Result<OwnRepair, Stopped> {
         let Self { measured, series, detection } = self;
         let (range, setup, sight) = (&detection.segments[index], &detection.setup, &detection.sight);
         let seen_range = sight.seen_range(range);
@@ -355,14 +368,17 @@ impl Seen<'_> {
         let places: Vec<Option<usize>> = outliers.iter().map(|&o| sight.seen(o)).collect();
         let local: Vec<usize> = places.iter().flatten().map(|place| place - seen_range.start).collect();
         let mut own = Vec::new();
+        let mut notes = Vec::new();
         if !seen_range.is_empty() {
             let segment = Segment::of(series, &seen_range, &detection.scales[index], None);
             let judged = gathered.as_ref().map_or(judged, sight::Gathered::part);
-            let damaged = Damaged { segment: &segment, settings: &setup.settings, judged, outliers: &local };
+            let settings = &setup.settings.at_interval(segment.interval);
+            let damaged = Damaged { segment: &segment, settings, judged, outliers: &local };
             own = setup.method.own_repair(&damaged, stop)?;
+            notes = setup.method.own_notes(&damaged);
         }
         if local.len() == outliers.len() {
-            return Ok(own);
+            return Ok(OwnRepair { values: own, notes });
         }
         let line = self.line(range, outliers, stop)?;
         let mut own = own.into_iter();
@@ -371,7 +387,7 @@ impl Seen<'_> {
             None if detection.draws_line(outliers[i]) => line[i],
             None => f64::NAN,
         };
-        Ok(places.iter().enumerate().map(value).collect())
+        Ok(OwnRepair { values: places.iter().enumerate().map(value).collect(), notes })
     }
 
     /// The line between the accepted samples on both sides of each of `outliers`.
@@ -403,6 +419,8 @@ struct Settled {
     fixes: Vec<f64>,
     runs: Vec<Run>,
     fills: Vec<Fill>,
+    /// What should be known of repairs.
+    notes: Vec<String>,
 }
 
 impl Settled {
@@ -422,14 +440,15 @@ impl Settled {
         let own = match repair::chosen(&setup.repair).way {
             // Nobody asks for it otherwise.
             repair::Way::Own => seen.own_repair(index, outliers, stop)?,
-            _ => Vec::new(),
+            _ => OwnRepair::default(),
         };
+        self.notes.extend(own.notes);
         let (values, measured) = (sight.values(seen.measured), &seen.measured.y);
         let expected = detection.judged.expected();
         let expected =
             pieces::collect(local.len(), &check, |i| sight.unwrapped(expected[outliers[i]], outliers[i], measured))?;
         let (t, y) = (&seen.measured.t[range.clone()], &values[range.clone()]);
-        let damage = Damage { t, y, outliers: &local, own: &own, expected: &expected };
+        let damage = Damage { t, y, outliers: &local, own: &own.values, expected: &expected };
         let fixes = repair::repair(&damage, &setup.repair, stop)?;
         self.fixes.extend(fixes.into_iter().map(|fix| sight.written(fix)));
         self.runs.extend(repair::runs(&local).map(|r| Run { start: range.start + local[r.start], length: r.len() }));

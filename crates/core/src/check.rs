@@ -164,7 +164,7 @@ fn number(settings: &Settings, key: &str) -> Option<f64> {
     match settings.get(key)? {
         Value::Word(_) => None,
         #[expect(clippy::cast_precision_loss, reason = "a number of samples is far below 2^53")]
-        Value::Whole(n) => Some(n as f64),
+        Value::Whole(_) | Value::Duration(_) => Some(settings.whole(key) as f64),
         _ => match settings.choice(key) {
             Choice::Number(x) => Some(x),
             Choice::Word(_) => None,

@@ -121,6 +121,8 @@ pub fn judge_segments(
     let judge = |(range, scales): (&Range<usize>, &noise::Scales)| {
         stop.check()?;
         let segment = Segment::of(series, range, scales, rate);
+        let counted = settings.has_durations().then(|| settings.at_interval(segment.interval));
+        let settings = counted.as_ref().unwrap_or(settings);
         local::bounded_below(method.judge(&segment, settings, stop)?, &segment, settings, stop)?.bounded(stop)
     };
     // Segments are judged in any order and put together in theirs: the number of threads changes nothing.
@@ -185,6 +187,12 @@ pub trait Method: Sync {
             Own::Remove => f64::NAN,
             Own::Expected => own(n),
         })
+    }
+
+    /// What should be known of the `own` repair of these outliers, one line each.
+    fn own_notes(&self, damaged: &Damaged<'_>) -> Vec<String> {
+        let _ = damaged;
+        Vec::new()
     }
 
     /// Facts that help to choose these settings, one line each.

@@ -6,6 +6,7 @@
 
 use crate::error::{Error, Result, nearest};
 
+mod duration;
 mod numbers;
 mod settings;
 mod value;
@@ -13,6 +14,9 @@ mod value;
 pub use numbers::Numbers;
 pub use settings::Settings;
 pub use value::{Choice, Value};
+
+/// The unit of parameters that count samples. Whole numbers of them may be given as lengths of time, too.
+pub const SAMPLES: &str = "samples";
 
 /// One knob.
 #[derive(Debug, Clone, Copy)]
@@ -115,11 +119,18 @@ impl Param {
         self
     }
 
+    /// True when a length of time may stand for a number of samples.
+    #[must_use]
+    pub fn takes_durations(&self) -> bool {
+        self.unit == SAMPLES && matches!(self.kind, Kind::Whole { .. } | Kind::WholeOrOff { .. })
+    }
+
     /// The legal values, in words: `3 .. 1001`, `mad | rms`.
     #[must_use]
     pub fn range(&self) -> String {
+        let time = if self.takes_durations() { " | a duration like 30s" } else { "" };
         match self.kind {
-            Kind::Whole { min, max, .. } => format!("{min} .. {max}"),
+            Kind::Whole { min, max, .. } => format!("{min} .. {max}{time}"),
             Kind::Real { min, max, .. } => format!("{min} .. {max}"),
             Kind::Choice(words) => words.join(" | "),
             Kind::Switch => "true | false".into(),
@@ -128,7 +139,7 @@ impl Param {
                 let most = if max > 1e15 { format!("{max:e}") } else { max.to_string() };
                 format!("{} | a number {least} to {most}", words.join(" | "))
             }
-            Kind::WholeOrOff { min, max } => format!("off | {min} .. {max}"),
+            Kind::WholeOrOff { min, max } => format!("off | {min} .. {max}{time}"),
             Kind::Numbers => format!("up to {} numbers", Numbers::MOST),
         }
     }
@@ -152,6 +163,7 @@ impl Param {
             Kind::WholeOrOff { .. } => word(&["off"], text).or_else(|| text.parse().ok().map(Value::Whole)),
             Kind::Numbers => Numbers::parse(text).map(Value::Numbers),
         };
+        let read = read.or_else(|| duration::parse(text).map(Value::Duration));
         read.filter(|v| self.accepts(*v)).ok_or_else(|| self.refuse(text))
     }
 
@@ -177,6 +189,7 @@ impl Param {
             (Kind::Choice(words) | Kind::RealOr { words, .. }, Value::Word(w)) => words.contains(&w),
             (Kind::WholeOrOff { .. }, Value::Word(w)) => w == "off",
             (Kind::Switch, Value::Switch(_)) | (Kind::Numbers, Value::Numbers(_)) => true,
+            (_, Value::Duration(seconds)) => self.takes_durations() && seconds.is_finite() && seconds > 0.0,
             _ => false,
         }
     }
@@ -217,6 +230,9 @@ impl Param {
                 if to > max { Value::Word("off") } else { Value::Whole(to.max(min)) }
             }
             (Kind::WholeOrOff { max, .. }, Value::Word(_)) if steps < 0 => Value::Whole(max),
+            (_, Value::Duration(seconds)) => {
+                Value::Duration(Step::Times(1.122).from(seconds, steps).clamp(f64::MIN_POSITIVE, 1e12))
+            }
             (_, other) => other,
         }
     }

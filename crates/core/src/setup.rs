@@ -101,6 +101,16 @@ impl Setup {
         }
     }
 
+    /// The same for samples that are so many seconds apart, which durations are counted in.
+    #[must_use]
+    pub fn at_interval(&self, seconds: f64) -> Self {
+        let mut own = self.clone();
+        own.settings = own.settings.at_interval(seconds);
+        own.repair = own.repair.at_interval(seconds);
+        own.preparation.checks.iter_mut().for_each(|check| check.settings = check.settings.at_interval(seconds));
+        own
+    }
+
     /// True when both find the same outliers: they differ in the repair at most.
     #[must_use]
     pub fn same_detection(&self, other: &Self) -> bool {

@@ -87,6 +87,8 @@ pub struct Outcome {
     /// What should be looked at before it is trusted, a line each: more than 5 % flagged, more than 5 % not judged,
     /// with the likely cause.
     pub doubts: Vec<String>,
+    /// What should be known of the method's own repair, a line each.
+    pub notes: Vec<String>,
 }
 
 /// How many samples of a channel are what.
@@ -135,7 +137,7 @@ impl Outcome {
         let setup = &self.detection.setup;
         let mut all = setup.method.warnings(&setup.settings);
         all.extend(self.detection.judged.warnings().iter().cloned());
-        all.extend(self.doubts.iter().cloned());
+        all.extend(self.doubts.iter().chain(&self.notes).cloned());
         all
     }
 

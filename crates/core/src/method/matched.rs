@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{About, Judged, Method, Own, Segment, shared};
+use super::{About, Damaged, Judged, Method, Own, Segment, shared};
 use crate::math::order::{MAD_TO_SIGMA, median_of_many};
 use crate::math::{integral, leave_one_out, pieces};
 use crate::param::{Choice, Kind, Param, Settings, Value, always};
@@ -11,7 +11,22 @@ use crate::stop::{Stop, Stopped};
 /// Carries the neighbours' values to the sample by the integral of a second channel that measures the rate.
 pub struct Matched;
 
-static PARAMS: &[Param] = &[K, WINDOW, SIGMA, shared::MAX_GAP, shared::FLOOR];
+mod bridge;
+
+static PARAMS: &[Param] = &[K, WINDOW, SIGMA, REPAIR_RULE, shared::MAX_GAP, shared::FLOOR];
+
+/// What takes the place of a run of outliers.
+const REPAIR_RULE: Param = Param {
+    key: "repair_rule",
+    help: "own repair: bridge (what the rate adds up to between the good values on both sides), or the expected value",
+    unit: "",
+    kind: Kind::Choice(&[BRIDGE, "expected"]),
+    default: Value::Word(BRIDGE),
+    paper: Some(Value::Word("expected")),
+    matters: always,
+};
+
+const BRIDGE: &str = "bridge";
 
 const K: Param = shared::K.with_default(Value::Real(3.0));
 
@@ -20,7 +35,7 @@ const WINDOW: Param = Param {
     help: "neighbours that are carried to each sample; patches up to about window/2 - 4 are seen",
     unit: "samples",
     kind: Kind::Whole { min: 4, max: 1001, step: 2 },
-    default: Value::Whole(31),
+    default: Value::Whole(401),
     paper: None,
     matters: always,
 };
@@ -73,11 +88,25 @@ impl Method for Matched {
             }
         })?;
         let sigma = match settings.choice(SIGMA.key) {
-            Choice::Number(sigma) => sigma,
+            Choice::Number(sigma) => segment.bounded(sigma, 0.0),
             Choice::Word(_) => residual_scale(segment, &expected, stop)?,
         };
+        let own = pieces::collect(n, &check, |i| integral[i][0] + integral[i][1])?;
         let scale = pieces::collect(n, &check, |i| if expected[i].is_nan() { f64::NAN } else { sigma })?;
-        Judged::gated(segment.y, expected, scale, settings.real(shared::K.key), stop)
+        Ok(Judged { own, ..Judged::gated(segment.y, expected, scale, settings.real(shared::K.key), stop)? })
+    }
+
+    fn own_repair(&self, damaged: &Damaged<'_>, stop: &Stop) -> Result<Vec<f64>, Stopped> {
+        if damaged.settings.word(REPAIR_RULE.key) == BRIDGE {
+            return bridge::repair(damaged, stop);
+        }
+        let expected = |n: usize| damaged.judged.expected.get(damaged.outliers[n]).copied().unwrap_or(f64::NAN);
+        pieces::collect(damaged.outliers.len(), &|| stop.check(), expected)
+    }
+
+    fn own_notes(&self, damaged: &Damaged<'_>) -> Vec<String> {
+        let bridges = damaged.settings.word(REPAIR_RULE.key) == BRIDGE;
+        bridges.then(|| bridge::closure(damaged)).flatten().into_iter().collect()
     }
 
     fn gate(&self, _: &Settings) -> Option<&'static str> {

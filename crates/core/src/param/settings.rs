@@ -1,6 +1,6 @@
 //! One value for each parameter of a list.
 
-use super::{Choice, Numbers, Param, Value, find};
+use super::{Choice, Kind, Numbers, Param, Value, find};
 use crate::error::Result;
 
 /// One legal value for each parameter of a list. Cloning is cheap; two settings of one method compare by value.
@@ -8,6 +8,8 @@ use crate::error::Result;
 pub struct Settings {
     params: &'static [Param],
     values: Vec<Value>,
+    /// How many seconds a sample takes, where that is known: what durations are counted in.
+    interval: Option<f64>,
 }
 
 impl PartialEq for Settings {
@@ -26,13 +28,31 @@ impl Settings {
     /// Every parameter at its default.
     #[must_use]
     pub fn defaults(params: &'static [Param]) -> Self {
-        Self { params, values: params.iter().map(|p| p.default).collect() }
+        Self { params, values: params.iter().map(|p| p.default).collect(), interval: None }
     }
 
     /// Every parameter as its source document prescribes it, the others at their defaults.
     #[must_use]
     pub fn paper(params: &'static [Param]) -> Self {
-        Self { params, values: params.iter().map(|p| p.paper.unwrap_or(p.default)).collect() }
+        Self { params, values: params.iter().map(|p| p.paper.unwrap_or(p.default)).collect(), interval: None }
+    }
+
+    /// The same settings for samples that are so many seconds apart, which durations are counted in.
+    #[must_use]
+    pub fn at_interval(&self, seconds: f64) -> Self {
+        Self { interval: Some(seconds).filter(|s| s.is_finite() && *s > 0.0), ..self.clone() }
+    }
+
+    /// How many seconds a sample takes, where that is known.
+    #[must_use]
+    pub fn interval(&self) -> Option<f64> {
+        self.interval
+    }
+
+    /// True when a number of samples is given as a length of time.
+    #[must_use]
+    pub fn has_durations(&self) -> bool {
+        self.values.iter().any(|v| matches!(v, Value::Duration(_)))
     }
 
     /// The list these are the settings of.
@@ -94,7 +114,25 @@ impl Settings {
     pub fn whole(&self, key: &str) -> usize {
         match self.get(key) {
             Some(Value::Whole(n)) => usize::try_from(n).unwrap_or(0),
+            Some(Value::Duration(seconds)) => self.samples(key, seconds),
             other => panic!("{key}: read as a whole number, declared as {other:?}"),
+        }
+    }
+
+    /// The samples that a duration takes, in the range of the parameter; its default where the interval is not known.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "within the range of the parameter"
+    )]
+    fn samples(&self, key: &str, seconds: f64) -> usize {
+        let Some(param) = self.params.iter().find(|p| p.key == key) else { return 0 };
+        let (Kind::Whole { min, max, .. } | Kind::WholeOrOff { min, max }) = param.kind else { return 0 };
+        match (self.interval, param.default) {
+            (Some(interval), _) => (seconds / interval).round().clamp(min as f64, max as f64) as usize,
+            (None, Value::Whole(n)) => usize::try_from(n).unwrap_or(0),
+            (None, _) => usize::try_from(min).unwrap_or(0),
         }
     }
 
@@ -175,5 +213,24 @@ impl Settings {
             Some(Value::Word(_)) => None,
             _ => Some(self.whole(key)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::method::{Method, hampel::Hampel};
+
+    #[test]
+    fn a_duration_is_counted_in_samples() {
+        let mut settings = Settings::defaults(Hampel.about().params);
+        settings.set_text("hampel", "window", "30s").unwrap();
+        settings.set_text("hampel", "max_gap", "2min").unwrap();
+        let at = settings.at_interval(2.0);
+        assert_eq!((at.whole("window"), at.whole_or_off("max_gap")), (15, Some(60)));
+        assert_eq!(settings.at_interval(1e6).whole("window"), 3, "not below the range");
+        assert_eq!(settings.whole("window"), 21, "the default while no interval is known");
+        assert!(settings == at && settings.has_durations() && settings.get("window").unwrap().to_string() == "30s");
+        assert!(settings.set_text("hampel", "k", "3s").is_err(), "no number of samples");
     }
 }

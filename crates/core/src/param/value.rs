@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::Numbers;
+use super::{Numbers, duration};
 
 /// The value of one parameter. Prints in the form that `--set` and the session file read back.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -18,6 +18,14 @@ pub enum Value {
     Switch(bool),
     /// A few numbers.
     Numbers(Numbers),
+    /// A length of time in seconds, for a parameter that counts samples.
+    #[serde(serialize_with = "duration_text")]
+    Duration(f64),
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+fn duration_text<S: serde::Serializer>(seconds: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&duration::text(*seconds))
 }
 
 /// The value of a parameter that is either a word or a number.
@@ -38,6 +46,7 @@ impl fmt::Display for Value {
             Self::Word(w) => f.write_str(w),
             Self::Switch(b) => write!(f, "{b}"),
             Self::Numbers(list) => write!(f, "{list}"),
+            Self::Duration(seconds) => f.write_str(&duration::text(*seconds)),
         }
     }
 }

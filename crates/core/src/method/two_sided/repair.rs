@@ -32,7 +32,8 @@ pub(super) fn repair(damaged: &Damaged<'_>, stop: &Stop) -> Result<Vec<f64>, Sto
 fn best(segment: &Segment<'_>, accepted: &[bool], run: &[usize], list: &[Candidate]) -> Option<Polynomial> {
     let mut best: Option<(Polynomial, f64)> = None;
     for candidate in list {
-        if let Some((fit, misfit)) = around(segment, accepted, run, candidate)
+        if allowed(segment, run, candidate)
+            && let Some((fit, misfit)) = around(segment, accepted, run, candidate)
             && best.as_ref().is_none_or(|(_, least)| misfit < *least)
         {
             best = Some((fit, misfit));
@@ -47,9 +48,15 @@ fn agreed<'a>(segment: &Segment<'_>, judged: &Part<'_>, run: &[usize], list: &'a
     let [forward, _] = *judged.repair_code.get(last)?;
     let [_, backward] = *judged.repair_code.get(first)?;
     let candidate = list.iter().find(|c| c.code == forward && c.code == backward)?;
-    // Two points show nothing of what the track does over a longer gap.
+    allowed(segment, run, candidate).then_some(candidate)
+}
+
+/// The two-point line is for a single outlier with no lost sample beside it: two points show nothing of what the track
+/// does over a longer gap.
+fn allowed(segment: &Segment<'_>, run: &[usize], candidate: &Candidate) -> bool {
+    let (Some(&first), Some(&last)) = (run.first(), run.last()) else { return false };
     let lost = segment.lost_before(first) > 0 || (last + 1 < segment.len() && segment.lost_before(last + 1) > 0);
-    (candidate.code != TWO_POINT || (first == last && !lost)).then_some(candidate)
+    candidate.code != TWO_POINT || (first == last && !lost)
 }
 
 /// The candidate's polynomial through its number of accepted samples before the run and as many after it, with the

@@ -20,6 +20,9 @@ use crate::session::digest::{Digest, WrittenDigest};
 use crate::session::{Data, Plan, Preparation, Recorded, Session, Setup, folder_of, is_period, method_of_id, tidied};
 use crate::track::{DASH, LoadOptions, Pattern, Rules, Source, Worded};
 
+/// Parameters that sessions of earlier programs do not have, with the value that stands for what those did.
+const LATER: [(&str, &str, Value); 1] = [("matched", "repair_rule", Value::Word("expected"))];
+
 /// A session file larger than this is none.
 const LARGEST: u64 = 64 << 20;
 
@@ -348,6 +351,10 @@ impl Reader<'_> {
         let method = method_of_id(channel.method.get_ref()).map_err(|e| self.wrap(method_line, e))?;
         let about = method.about();
         let mut settings = Settings::defaults(about.params);
+        // Parameters that came later mean what was done before.
+        for (_, key, before) in LATER.iter().filter(|(id, ..)| *id == about.id) {
+            settings.set(about.id, key, *before)?;
+        }
         self.fill(&mut settings, about.id, about.params, channel.settings)?;
         let mut repair = Settings::defaults(repair::PARAMS);
         self.fill(&mut repair, "repair", repair::PARAMS, channel.repair)?;
@@ -446,7 +453,7 @@ fn value_of(param: &Param, value: &toml::Value) -> std::result::Result<Value, Co
         toml::Value::Array(list) => {
             numbers(list).map_or_else(|| Err(illegal(param, value)), |numbers| param.accept(Value::Numbers(numbers)))
         }
-        toml::Value::String(s) if words.contains(&s.as_str()) => param.parse(s),
+        toml::Value::String(s) if words.contains(&s.as_str()) || param.takes_durations() => param.parse(s),
         other => Err(illegal(param, other)),
     }
 }

@@ -201,7 +201,7 @@ fn inline(settings: &Settings) -> String {
 
 fn assignment(param: &Param, value: Value) -> String {
     match value {
-        Value::Word(word) => format!("{} = {}", param.key, quoted(word)),
+        Value::Word(_) | Value::Duration(_) => format!("{} = {}", param.key, quoted(&value.to_string())),
         Value::Numbers(list) => format!("{} = {:?}", param.key, list.as_slice()),
         other => format!("{} = {other}", param.key),
     }
