@@ -58,10 +58,13 @@ fn only_repaired_cells_differ_from_the_input() {
     folder.done("clean demo.csv -o clean.csv --flags flags.csv");
     let (clean, flags) = (folder.text("clean.csv"), folder.text("flags.csv"));
     // The table is applied to the input by hand: cell of row and channel, new text in `clean`.
-    let mut lines: Vec<Vec<&str>> = DEMO.lines().map(|line| line.split(',').collect()).collect();
+    let mut lines: Vec<Vec<String>> = DEMO.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
     for flag in table(&flags).iter().filter(|f| f[4] == "outlier") {
         let column = if flag[2] == "vx_mps" { 1 } else { 2 };
-        lines[flag[0].parse::<usize>().unwrap()][column] = flag[13];
+        // The table has numbers, the file has them with the decimals of its columns.
+        let decimals = if column == 1 { 2 } else { 1 };
+        let written = flag[13].parse().map_or_else(|_| String::new(), |value: f64| format!("{value:.decimals$}"));
+        lines[flag[0].parse::<usize>().unwrap()][column] = written;
         assert_eq!(flag[14], if flag[13].is_empty() { "removed" } else { "repaired" });
     }
     let by_hand: String = lines.iter().map(|cells| cells.join(",") + "\n").collect();

@@ -287,13 +287,13 @@ fn track_and_encoding_are_told_and_go_into_the_session() {
     let told = LoadOptions { time: Some("t_s".into()), ..LoadOptions::default() };
     let glance = Glance { source: Source::demo(), options: told.clone() };
     bench.news(News::Seen { glance, result: Ok(seen(&told)), lines: Vec::new() });
-    (0..3).for_each(|_| drop(bench.key(KeyCode::Down)));
+    (0..5).for_each(|_| drop(bench.key(KeyCode::Down)));
     bench.typed("ealt_m");
     let options = LoadOptions { track: Some("alt_m".into()), ..told };
     let glance = Glance { source: Source::demo(), options: options.clone() };
     assert_eq!(bench.key(KeyCode::Enter), [Effect::Files(Task::Look(glance))]);
     // The encoding is the last field; after recognised and UTF-8 comes Latin-1.
-    (0..4).for_each(|_| drop(bench.key(KeyCode::Up)));
+    (0..6).for_each(|_| drop(bench.key(KeyCode::Up)));
     bench.key(KeyCode::Right);
     bench.key(KeyCode::Right);
     assert!(bench.frame().contains("> encoding         latin-1"), "{}", bench.frame());

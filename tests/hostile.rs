@@ -147,7 +147,7 @@ fn what_could_not_be_used_is_told_by_clean_too() {
     let told = "1 repeated time (line 4: 1)\nnote: 1 unreadable cell (line 5: four (x))\n";
     let out = folder.done("clean a.csv");
     assert!(out.starts_with(&format!("note: {told}")), "{out}");
-    assert!(!folder.done("clean b.csv").contains("note"));
+    assert!(!folder.done("clean b.csv").lines().any(|line| line.starts_with("note")));
     let many = folder.done("clean a.csv b.csv");
     assert!(many.contains("note: a.csv: 1 repeated time (line 4: 1)\n"), "{many}");
     let json: serde_json::Value = serde_json::from_str(&folder.done("clean a.csv --json")).unwrap();

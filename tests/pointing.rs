@@ -221,11 +221,11 @@ fn a_second_click_on_an_option_of_the_loader_gives_it_the_next_value() {
     for c in "loader".chars().map(KeyCode::Char).chain([KeyCode::Enter]) {
         update(&mut desk.0.0, Message::Key(KeyEvent::new(c, KeyModifiers::NONE)));
     }
-    let cell = desk.cell_of("decimal comma");
+    let cell = desk.cell_of("header line");
     assert_eq!(desk.click(cell), []);
     let asked = desk.click(cell);
     assert!(
-        matches!(&asked[..], [Effect::Files(Task::Look(glance))] if glance.options.decimal_comma == Some(true)),
+        matches!(&asked[..], [Effect::Files(Task::Look(glance))] if glance.options.header_line == Some(1)),
         "{asked:?}"
     );
     // Texts have no next one: they are typed.

@@ -76,7 +76,8 @@ fn every_recording_is_read_as_a_plain_reading_has_it() {
     let Some(folder) = folder() else { return };
     // Rows as the description states them.
     for (name, rows, channels) in [
-        ("spacex_webcast_30hz.csv.gz", 1_218_256, 3),
+        // Each of two columns for each of 46 flights.
+        ("spacex_webcast_30hz.csv.gz", 1_218_256, 92),
         ("spacex_iridium3_stage1.csv", 11_845, 2),
         ("rocket_juno3_altimeter.csv", 611, 5),
         ("rocket_juno3_gnss.csv", 444, 5),
@@ -118,10 +119,9 @@ fn faults_are_those_of_the_description() {
     let missing = |track: &Track, name: &str| track.columns.iter().find(|c| c.name == name).unwrap().missing;
 
     let iridium = track("spacex_iridium3_stage1.csv");
-    // Row 1 is 0.0; the rows from -0.966 on lie before it until time passes 0.0 again.
-    let usable = iridium.time.seconds.iter().skip(1).position(|s| !s.is_nan()).unwrap();
-    assert_eq!((iridium.faults.backward_times.count + iridium.faults.repeated_times.count, usable), (29, 29));
-    assert_eq!(iridium.faults.backward_times.first[0], (3, "-0.966".into()));
+    // Row 1 is 0.0, before rows that begin with -0.966: it alone is wild.
+    let without: Vec<usize> = (0..iridium.rows).filter(|&row| iridium.time.seconds[row].is_nan()).collect();
+    assert_eq!(without, [0], "{:?}", iridium.notes);
 
     assert_eq!(track("rocket_astra_gps.csv").faults.repeated_times.count, 2);
     assert_eq!(track("rocket_prometheus_telemetrum.csv").faults.repeated_times.count, 1_369);
@@ -174,10 +174,10 @@ fn originals_are_read_in_their_own_form() {
     let folder = folder.join("messy");
     for (name, rows, channels, time) in [
         ("juno3_cots_altimeter.csv", 611, 5, "time"),
-        ("prometheus_telemega_head.csv", 299, 77, "time"),
+        ("prometheus_telemega_head.csv", 299, 32, "time"),
         ("skab_valve1_0.csv", 1_147, 10, "datetime"),
         ("ioos_salinity_head.csv", 2_998, 1, "time PST"),
-        ("00NA_head.tenv3", 599, 21, "sample"),
+        ("00NA_head.tenv3", 599, 13, "YYMMMDD"),
         ("W3B.aer", 521, 2, "column_1"),
         ("gnss_logger_2016_06_30_head.txt", 389, 22, "TimeNanos"),
         ("MainStreet_cond_calib_dates.csv", 45, 1, "start"),

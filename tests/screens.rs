@@ -240,6 +240,6 @@ fn the_card_cuts_no_number() {
 fn when_most_samples_cannot_be_judged_the_screen_says_so() {
     // Too few for the method that is the standard.
     let few = Bench::on("../tests/data/one_truth.csv", UNICODE_DARK);
-    assert!(few.frame().contains("samples are unchecked: two-sided cannot judge them here"), "{}", few.frame());
-    assert!(!Bench::on("demo.csv", UNICODE_DARK).frame().contains("unchecked:"));
+    assert!(few.frame().contains("100 % are not judged: too few neighbours for this method"), "{}", few.frame());
+    assert!(!Bench::on("demo.csv", UNICODE_DARK).frame().contains("not judged"));
 }

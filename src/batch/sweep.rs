@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn the_advice_is_a_command_or_says_why_there_is_none() {
-        assert!(advice(&swept(&[90, 7, 7, 0]), "hampel").contains("--method hampel --set k=2.83 (7 flagged)"));
+        assert!(advice(&swept(&[90, 7, 7, 0]), "hampel").contains("--method hampel --set k=2 (7 flagged)"));
         assert!(advice(&swept(&[90, 40, 10, 0]), "hampel").contains("no clear gap"));
         assert!(advice(&swept(&[0, 0, 0]), "hampel").contains("nothing is flagged at the default and above"));
     }

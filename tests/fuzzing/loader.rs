@@ -68,7 +68,7 @@ fn changed(track: &wildpoint::track::Track, options: &LoadOptions) {
     }
     for (i, (a, b)) in again.channels[0].values.iter().zip(&channel.values).enumerate() {
         if i == row {
-            assert!(*a == -2.0 || track.dialect.missing.iter().any(|m| m.contains('1')), "row {i}: {a}");
+            assert!(*a == -2.0 || track.dialect.missing.iter().any(|m| m.contains('2')), "row {i}: {a}");
         } else {
             assert!(a == b || (a.is_nan() && b.is_nan()), "row {i}: {a} was {b}");
         }

@@ -88,7 +88,9 @@ fn heading_among(lines: &[Line], first: usize, of: &Lines<'_>, reading: &Reading
         let Some(cells) = fitting(line, usual, of, rows.first().copied(), reading) else {
             // A ruler may be of any width; what else does not fit ends the heading.
             let ruler = kind_of(&line.cells) == Kind::Ruler;
-            if ruler || (line.kind == RecordKind::Comment && above.is_none()) {
+            // Among comments, rows of another kind may stand between the names and the rows.
+            let other = comments && line.cells.iter().any(|c| look(c.as_bytes(), reading) == Look::Number);
+            if ruler || (above.is_none() && (line.kind == RecordKind::Comment || other)) {
                 continue;
             }
             break;

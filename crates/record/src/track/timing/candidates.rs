@@ -221,7 +221,9 @@ impl<'a> Candidates<'a> {
             steps.moves_on()
                 || self.ids(column).any(|id| self.steps_by_track(&self.number_timing(column), id).moves_on())
         };
-        if rank >= 3 && steps.one_way() || rank > 0 && goes_on() {
+        // What is called a time outright may have faults in a good part of its rows.
+        let mostly = rank == 4 && steps.forward.max(steps.back) >= 2 * steps.forward.min(steps.back).max(1);
+        if mostly || rank >= 3 && steps.one_way() || rank > 0 && goes_on() {
             return Some(2);
         }
         // Digits that are dates need no name.
