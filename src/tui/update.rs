@@ -34,7 +34,7 @@ mod record;
 mod recover;
 mod review;
 mod rows;
-mod tune;
+pub(in crate::tui) mod tune;
 
 pub use command::{COMMANDS, Command};
 pub(in crate::tui) use dialog::misread;
@@ -235,12 +235,17 @@ fn analysed(
     model.awaited = None;
     match result {
         Ok(drawn) => {
-            let first = model.channels[plan].drawn.is_none();
+            let before = model.channels[plan].drawn.as_ref();
+            let first = before.is_none();
+            let explained = before.and_then(|before| tune::more_flags(&before.outcome, &drawn.outcome));
             files::arrange(model, plan, *drawn);
             if first && let Some(drawn) = model.channels[plan].drawn.clone() {
                 let at = drawn.outcome.outliers.first().copied().or(drawn.positions.first().map(|p| *p as usize));
                 model.channels[plan].cursor = at.unwrap_or(0);
                 remember_what_was_said(model, plan);
+            }
+            if let Some(text) = explained.filter(|_| plan == model.shown) {
+                model.say_too(Tone::Warning, &text);
             }
         }
         Err(Error::Stopped) => {}

@@ -125,6 +125,12 @@ impl Param {
         self.unit == SAMPLES && matches!(self.kind, Kind::Whole { .. } | Kind::WholeOrOff { .. })
     }
 
+    /// The unit of a value: that of the parameter, but for a duration, which has its own.
+    #[must_use]
+    pub fn unit_of(&self, value: Value) -> &'static str {
+        if matches!(value, Value::Duration(_)) { "" } else { self.unit }
+    }
+
     /// The legal values, in words: `3 .. 1001`, `mad | rms`.
     #[must_use]
     pub fn range(&self) -> String {

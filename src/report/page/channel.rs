@@ -125,5 +125,5 @@ fn row(param: &Param, value: Value, default: &Settings, paper: Option<&Settings>
         (false, false) => "set",
     };
     let key = if param.key == repair::METHOD.key && paper.is_none() { "repair" } else { param.key };
-    vec![key.to_owned(), value.to_string(), param.unit.to_owned(), origin.to_owned(), param.help.to_owned()]
+    vec![key.to_owned(), value.to_string(), param.unit_of(value).to_owned(), origin.to_owned(), param.help.to_owned()]
 }

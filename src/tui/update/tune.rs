@@ -9,7 +9,7 @@ use crate::error::on_one_line;
 use crate::method::{METHODS, Method};
 use crate::param::{Settings, Value};
 use crate::session::sweep::{Threshold, multiplier};
-use crate::session::{Preset, Setup};
+use crate::session::{Outcome, Preset, Setup};
 
 pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
     Some(match action {
@@ -45,6 +45,21 @@ pub(super) fn knob_between(before: &Setup, after: &Setup) -> Option<(&'static st
     if all.len() == 1 { all.pop() } else { None }
 }
 
+/// Why more is flagged although the multiplier went up; none where it did not, or other settings differ too.
+pub(super) fn more_flags(before: &Outcome, after: &Outcome) -> Option<String> {
+    let more = after.counts.flagged.checked_sub(before.counts.flagged).filter(|more| *more > 0)?;
+    let (old, new) = (&before.detection.setup, &after.detection.setup);
+    let key = multiplier(new).ok()?.key;
+    let up = old.settings.get(key).zip(new.settings.get(key)).is_some_and(|(old, new)| match (old, new) {
+        (Value::Real(old), Value::Real(new)) => new > old,
+        _ => false,
+    });
+    let alone = knob_between(old, new).is_some_and(|(knob, ..)| knob == key);
+    (up && alone).then(|| {
+        format!("{more} more flagged with a larger {key}: what it lets into the model changes what is expected next")
+    })
+}
+
 /// The value of a knob, as text.
 pub(in crate::tui) fn value_text(setup: &Setup, knob: Knob) -> String {
     match knob {
@@ -56,7 +71,8 @@ pub(in crate::tui) fn value_text(setup: &Setup, knob: Knob) -> String {
     }
 }
 
-fn value(setup: &Setup, knob: Knob) -> Option<Value> {
+/// The value of a knob that turns a parameter.
+pub(in crate::tui) fn value(setup: &Setup, knob: Knob) -> Option<Value> {
     match knob {
         Knob::Detection(p) => setup.settings.get(p.key),
         Knob::Repair(p) => setup.repair.get(p.key),
@@ -290,6 +306,43 @@ pub(super) fn take_suggestion(model: &mut Model) -> Vec<Effect> {
         Threshold::None { no_suggestion } => {
             model.say(Tone::Warning, format!("no threshold is suggested: {no_suggestion}"));
             Vec::new()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use wildpoint_core::analysis::{Detection, Input, Rows, settle};
+
+    use crate::method::find;
+    use crate::review::Decisions;
+    use crate::stop::Stop;
+    use crate::track::Series;
+
+    fn outcome(id: &str, k: &str, flagged: usize) -> Outcome {
+        let t: Vec<f64> = (0..50).map(f64::from).collect();
+        let series = Series::new(&t, &t);
+        let mut setup = Setup::new(find(id).unwrap(), Preset::Default);
+        setup.set_text("k", k).unwrap();
+        let detection = Detection::of(Input::new(&series, None), &setup, &Stop::never()).unwrap();
+        let rows = Rows { seconds: &t, own: None };
+        let found = settle(&series, rows, Arc::new(detection), &Decisions::default(), &Stop::never()).unwrap();
+        Outcome { counts: crate::session::Counts { flagged, ..found.counts }, ..found }
+    }
+
+    #[test]
+    fn a_larger_multiplier_that_flags_more_is_explained() {
+        let words = more_flags(&outcome("two-sided", "4", 3), &outcome("two-sided", "4.1", 5)).unwrap();
+        assert!(words.starts_with("2 more flagged with a larger k"), "{words}");
+        for (before, after) in [
+            (outcome("two-sided", "4.1", 3), outcome("two-sided", "4", 5)),
+            (outcome("two-sided", "4", 5), outcome("two-sided", "4.1", 5)),
+            (outcome("hampel", "4", 3), outcome("two-sided", "4.1", 5)),
+        ] {
+            assert_eq!(more_flags(&before, &after), None);
         }
     }
 }

@@ -8,7 +8,7 @@ use ratatui::widgets::Widget;
 use super::super::action::{Action, Panel};
 use super::super::advice::{Advice, Step};
 use super::super::model::{Knob, Model};
-use super::super::update::value_text;
+use super::super::update::{tune, value_text};
 use super::super::words::key;
 use super::{clear, compare, fit, heading, thousands};
 use crate::param::Value;
@@ -91,7 +91,7 @@ pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
         } else {
             theme.text
         };
-        let unit = knob.param().map_or("", |p| p.unit);
+        let unit = knob.param().map_or("", |p| tune::value(setup, *knob).map_or(p.unit, |v| p.unit_of(v)));
         let line = Line::from(vec![
             Span::styled(format!("{:15}", fit(knob.name(), 14)), name_style),
             Span::styled(value, value_style),
