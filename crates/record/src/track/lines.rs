@@ -47,7 +47,7 @@ pub fn first_lines(source: &Source, at: Option<&RowsAt>, most: usize) -> Vec<Fil
     let mut start = 0;
     for (i, raw) in body.split(|b| *b == b'\n').enumerate() {
         let text: String = String::from_utf8_lossy(raw).trim_end_matches('\r').chars().take(LONGEST).collect();
-        let part = at.map_or(LinePart::Unknown, |at| part_of(at, start));
+        let part = at.map_or(LinePart::Unknown, |at| part_of(at, start, i as u64 + 1));
         lines.push(FileLine { number: i + 1, text, part });
         start += raw.len() + 1;
     }
@@ -64,7 +64,12 @@ pub fn first_lines(source: &Source, at: Option<&RowsAt>, most: usize) -> Vec<Fil
     lines
 }
 
-fn part_of(at: &RowsAt, start: usize) -> LinePart {
+fn part_of(at: &RowsAt, start: usize, line: u64) -> LinePart {
+    if !at.made_of.is_empty() {
+        // Several lines may make a row: what stands after the first of them belongs to one.
+        let before = at.made_of.iter().any(|made| *made <= line);
+        return if before { LinePart::Row } else { LinePart::Preamble };
+    }
     let is = |place: Option<(usize, usize)>| place.is_some_and(|(p, _)| p == start);
     match () {
         () if is(at.header) => LinePart::Header,
