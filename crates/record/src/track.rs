@@ -75,6 +75,7 @@ pub use printable::{is_hidden, is_shown, printable, printable_json, printable_li
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use samples::Samples;
+pub use shape::refused;
 pub use spool::{DASH, Spool};
 pub use standing::{Lost, Standing, covered};
 pub use style::Style;

@@ -113,6 +113,13 @@ mod tests {
         let parts: Vec<LinePart> = first_lines(&source, Some(&track.dialect.rows), 5).iter().map(|l| l.part).collect();
         use LinePart::{Header, Preamble, Row, Units};
         assert_eq!(parts, [Preamble, Header, Units, Row, Row]);
+        // Records: the first epoch begins in the second line.
+        let text =
+            b"# a logger\n$GPGGA,100000,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,\n$GPVTG,1,T,,M,2,N,3,K\n";
+        let records = Source::BuiltIn { name: "test", bytes: text[..].into() };
+        let track = load(&records, &LoadOptions::default()).unwrap();
+        let lines = first_lines(&records, Some(&track.dialect.rows), 3);
+        assert_eq!(lines.iter().map(|l| l.part).collect::<Vec<_>>(), [Preamble, Row, Row]);
         assert!(first_lines(&source, None, 2).iter().all(|l| l.part == LinePart::Unknown));
     }
 }

@@ -196,9 +196,10 @@ impl View {
         let mut sheet = sheet(body, want)?;
         let rows = std::mem::take(&mut sheet.rows);
         if rows.is_empty() {
-            return Err(Error::usage(
-                format!("no records with values in this file, which looks like {}", format.name),
-                "name a file with measurements",
+            return Err(Error::input(
+                "",
+                format!("no records with measurements in this file, which looks like {}", format.name),
+                "name a file with measurements; what is read of the format stands in docs/what-it-reads.md",
             ));
         }
         let width = sheet.fields.len();
@@ -265,11 +266,15 @@ impl View {
         self.places.get(row * width + column).filter(|_| column < width)?.clone()
     }
 
+    /// The number of the track of a row.
+    fn track(&self, row: usize) -> usize {
+        self.tracks.get(row).copied().unwrap_or(0)
+    }
+
     /// How the numbers of a column are written, in the rows of the track of `row`.
     fn style(&self, (row, column): (usize, usize), source: &[u8], reading: &Reading) -> Option<Style> {
         const SAMPLE: usize = 200;
-        let track = self.tracks.get(row);
-        let of_track = |r: &usize| self.tracks.get(*r) == track;
+        let of_track = |r: &usize| self.track(*r) == self.track(row);
         let places = (0..self.lines.len()).filter(of_track).filter_map(|r| self.place(r, column));
         let cells: Vec<&str> = places.take(SAMPLE).filter_map(|at| std::str::from_utf8(&source[at]).ok()).collect();
         Style::of(cells.into_iter(), reading)

@@ -99,6 +99,11 @@ fn bytes(case: &Case, cell: &dyn Fn(usize) -> String) -> Vec<u8> {
     if case.latin1 { text.chars().map(|c| u8::try_from(u32::from(c)).unwrap()).collect() } else { text.into_bytes() }
 }
 
+/// The input as it is.
+pub(crate) fn bytes_of(case: &Case) -> Vec<u8> {
+    bytes(case, &|i| digits(i, if case.written.contains(',') { ',' } else { '.' }))
+}
+
 fn loaded(bytes: &[u8], case: &Case) -> Result<Track, String> {
     let options = LoadOptions { table: case.table, ..LoadOptions::default() };
     load(&Source::BuiltIn { name: "test", bytes: bytes.into() }, &options).map_err(|e| e.to_string())

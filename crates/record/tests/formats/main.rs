@@ -2,7 +2,9 @@
 //! cell changed. The inputs are written here from public descriptions of the formats, two of each and more.
 
 mod case;
+mod edges;
 mod gnss;
+mod hostile;
 mod loggers;
 mod logs;
 mod records;
@@ -19,6 +21,11 @@ fn cases() -> Vec<Case> {
 fn files_of_every_format_are_understood_and_written_again() {
     let wrong: Vec<String> = cases().iter().filter_map(|c| Some(format!("{}: {}", c.name, wrong(c)?))).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn broken_inputs_are_read_or_refused() {
+    cases().iter().for_each(hostile::walked);
 }
 
 /// Formats whose inputs stand in other tests (`tests/understanding.rs`, the registry itself).

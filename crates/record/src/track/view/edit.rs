@@ -1,9 +1,12 @@
 //! Changed cells of a view, written into their stretches of the source.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use super::super::number::Reading;
+use super::super::printable;
 use super::super::rewrite::{Changes, Pen};
+use super::super::style::Style;
 use super::super::text::{Text, decoded};
 use super::super::tokens::line_end_of;
 use super::super::{CellChange, Track};
@@ -28,10 +31,9 @@ pub(crate) fn rewrite(track: &Track, text: &Text<'_>, view: &View, changes: &Cha
             "leave gaps as they are (`fill_gaps = no`), or repair the record as a table",
         ));
     }
-    let mut edits = Vec::with_capacity(changes.cells.len());
-    for change in &changes.cells {
-        edits.push(edit(track, view, source, change)?);
-    }
+    let reading = Reading::new(track.dialect.decimal_comma, &[]);
+    let mut writer = Writer { track, view, source, reading, styles: HashMap::new() };
+    let mut edits = changes.cells.iter().map(|change| writer.edit(change)).collect::<Result<Vec<_>>>()?;
     edits.sort_by_key(|e| e.at.start);
     let end = line_end_of(source);
     let mut written = 0;
@@ -73,27 +75,42 @@ fn changed_line(source: &[u8], line: &Range<usize>, edits: &[Edit], view: &View)
     }
 }
 
-fn edit(track: &Track, view: &View, source: &[u8], change: &CellChange) -> Result<Edit> {
-    let (row, column) = (change.row as usize, change.column);
-    let Some(at) = view.place(row, column) else {
-        let name = track.columns.get(column).map_or("", |c| c.name.as_str());
-        return Err(Error::usage(
-            format!("line {}: {} has no place for a value of `{name}`", view.line(row as u64 + 2), view.format.name),
+/// Writes values into the cells of a view.
+struct Writer<'a> {
+    track: &'a Track,
+    view: &'a View,
+    source: &'a [u8],
+    reading: Reading,
+    /// How numbers are written, by column and track.
+    styles: HashMap<(usize, usize), Option<Style>>,
+}
+
+impl Writer<'_> {
+    fn edit(&mut self, change: &CellChange) -> Result<Edit> {
+        let (row, column) = (change.row as usize, change.column);
+        let Some(at) = self.view.place(row, column) else { return Err(self.no_place(row, column)) };
+        let field = &self.view.sheet.fields[column];
+        let old = decoded(&self.source[at.clone()], self.track.dialect.encoding);
+        let Some(value) = change.value.filter(|v| v.is_finite()) else {
+            return Ok(match &field.nothing {
+                Nothing::Text(text) => fitted(self.source, at, text.clone().into_owned(), self.view),
+                Nothing::NoLine => Edit { at: whole_line(self.source, &at), text: String::new() },
+            });
+        };
+        let style = || self.view.style((row, column), self.source, &self.reading);
+        let style = self.styles.entry((column, self.view.track(row))).or_insert_with(style);
+        let text = field.spelling.written(value, &old, style.as_ref(), &self.reading);
+        Ok(fitted(self.source, at, text, self.view))
+    }
+
+    fn no_place(&self, row: usize, column: usize) -> Error {
+        let name = self.track.columns.get(column).map_or("", |c| c.name.as_str());
+        let (line, format) = (self.view.line(row as u64 + 2), self.view.format.name);
+        Error::usage(
+            format!("line {line}: {format} has no place for a value of `{}`", printable(name)),
             "leave missing values as they are (`max_fill = 0`), or repair the record as a table",
-        ));
-    };
-    let field = &view.sheet.fields[column];
-    let old = decoded(&source[at.clone()], track.dialect.encoding);
-    let reading = Reading::new(track.dialect.decimal_comma, &[]);
-    let Some(value) = change.value.filter(|v| v.is_finite()) else {
-        return Ok(match &field.nothing {
-            Nothing::Text(text) => fitted(source, at, text.clone().into_owned(), view),
-            Nothing::NoLine => Edit { at: whole_line(source, &at), text: String::new() },
-        });
-    };
-    let style = view.style((row, column), source, &reading);
-    let text = field.spelling.written(value, &old, style.as_ref(), &reading);
-    Ok(fitted(source, at, text, view))
+        )
+    }
 }
 
 /// The edit that keeps the width of the cell, where the source has columns of a fixed width: blanks before the number
