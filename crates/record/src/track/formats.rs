@@ -3,6 +3,8 @@
 //! A format is one row of [`FORMATS`]. Of a delimited table it completes what the user told; a text of records of several
 //! kinds it makes a table of, with [`Format::sheet`].
 
+use encoding_rs::WINDOWS_1252;
+
 use super::view::{Field, Sheet, View, Want};
 use super::{Aside, Delimiter, LoadOptions, Rules};
 use crate::error::Result;
@@ -147,10 +149,26 @@ pub static FORMATS: [Format; 32] = [
 /// How much of a file is looked at.
 const LOOKED_AT: usize = 64 << 10;
 
+/// The first part of a text, as UTF-8 or else as Windows-1252.
+fn beginning(body: &[u8]) -> String {
+    let part = &body[..body.len().min(LOOKED_AT)];
+    match std::str::from_utf8(part) {
+        Ok(text) => text.to_owned(),
+        // A character may be cut at the end.
+        Err(e) if e.error_len().is_none() => String::from_utf8_lossy(&part[..e.valid_up_to()]).into_owned(),
+        Err(_) => WINDOWS_1252.decode_without_bom_handling(part).0.into_owned(),
+    }
+}
+
+/// True where `text` holds `key`: asked before its lines are.
+fn has(text: &str, key: &str) -> bool {
+    memchr::memmem::find(text.as_bytes(), key.as_bytes()).is_some()
+}
+
 /// The format of a file, by the first bytes of its text.
 #[must_use]
 pub fn format_of(body: &[u8]) -> Option<(&'static Format, String)> {
-    let text = String::from_utf8_lossy(&body[..body.len().min(LOOKED_AT)]).into_owned();
+    let text = beginning(body);
     FORMATS.iter().find(|format| (format.known)(&text)).map(|format| (format, text))
 }
 
@@ -183,11 +201,13 @@ impl Known {
         (own.header_line, own.skip, own.units_line) = (Some(1), None, None);
         (own.comment, own.table) = (None, None);
         own.decimal_comma = Some(sheet.decimal_comma);
-        let time = sheet.fields.first().filter(|_| sheet.timed);
-        own.time.get_or_insert_with(|| time.map_or_else(|| "sample".to_owned(), |field| field.name.clone()));
+        if !sheet.timed {
+            own.time.get_or_insert_with(|| "sample".to_owned());
+        }
         if let Some(field) = sheet.track.and_then(|track| sheet.fields.get(track)) {
             own.track.get_or_insert_with(|| field.name.clone());
         }
+        known.time = sheet.fields.first().map(|field| field.name.clone());
         known.said.push(view.format.words());
         known.said.extend(sheet.said.iter().cloned());
         known

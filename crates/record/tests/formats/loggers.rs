@@ -142,8 +142,19 @@ fn diver() -> Vec<Case> {
         let head = head(["DRUK", "TEMPERATUUR"], ["mH2O", "°C"]);
         table(&head, |i| format!("{}     {:>8}    {}", stamp(i), v(i), format!("{:>6.3}", other(i)).replace('.', ",")))
     };
+    let swapped = move |v: &dyn Fn(usize) -> String| {
+        table(&head(["DRUK", "TEMPERATUUR"], ["mH2O", "°C"]), |i| {
+            format!("{}     {:>8.3}    {:>8}", stamp(i), other(i), v(i))
+        })
+    };
     vec![
         Case { channel: "PRESSURE", unit: "cmH2O", ..case("counted rows", "Van Essen Diver (MON)", plain) },
+        Case {
+            channel: "TEMPERATUUR",
+            unit: "°C",
+            latin1: true,
+            ..case("a degree sign in Latin-1", "Van Essen Diver (MON)", swapped)
+        },
         Case {
             channel: "DRUK",
             unit: "mH2O",

@@ -62,7 +62,7 @@ impl Book {
         let text = |at: usize| cells.get(at).map_or("", |c| c.text());
         match text(0) {
             "FMT" if cells.len() > 4 => {
-                let columns = cells[5..].iter().map(|c| c.lossy()).filter(|c| !c.is_empty()).collect();
+                let columns = cells[5..].iter().map(|c| c.decoded()).filter(|c| !c.is_empty()).collect();
                 let message = Message { columns, letters: text(4).to_owned(), ..Message::default() };
                 self.numbers.insert(text(1).to_owned(), text(3).to_owned());
                 self.messages.insert(text(3).to_owned(), message);
@@ -121,7 +121,7 @@ fn sheet(body: &[u8], want: Want) -> Result<Sheet> {
             continue;
         }
         if let Some(cell) =
-            instance.and_then(|at| cells.get(at + 1)).map(|c| c.lossy()).filter(|c| !instances.contains(c))
+            instance.and_then(|at| cells.get(at + 1)).map(|c| c.decoded()).filter(|c| !instances.contains(c))
         {
             instances.push(cell);
         }

@@ -1,6 +1,6 @@
 //! Betaflight and its relatives: blackbox logs as CSV, as `blackbox_decode` and the Blackbox Explorer write them.
 
-use super::{Format, Known, Label, PLAIN, line_where, names_in};
+use super::{Format, Known, Label, PLAIN, has, line_where, names_in};
 use crate::track::{Aside, Delimiter, TimeUnit, Worded};
 
 pub(super) const FORMAT: Format = Format {
@@ -19,6 +19,9 @@ pub(super) const FORMAT: Format = Format {
 };
 
 fn header(text: &str) -> Option<usize> {
+    if !has(text, "loopIteration") {
+        return None;
+    }
     line_where(text, |line| {
         let mut names = names_in(line).into_iter();
         names.next() == Some("loopIteration") && names.next().is_some_and(|n| n == "time" || n.starts_with("time ("))

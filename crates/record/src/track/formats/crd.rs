@@ -181,7 +181,7 @@ fn sheet(body: &[u8], want: Want) -> Result<Sheet> {
 impl Session {
     /// Takes what a header says.
     fn take(&mut self, first: &str, words: &[Piece<'_>]) {
-        let text = |at: usize| words.get(at).map_or_else(String::new, |w| w.lossy());
+        let text = |at: usize| words.get(at).map_or_else(String::new, |w| w.decoded());
         match first {
             "h2" => self.station = text(1),
             "h3" => self.target = text(1),

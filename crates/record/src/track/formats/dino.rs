@@ -1,6 +1,6 @@
 //! DINOloket: groundwater levels of the Geological Survey of the Netherlands.
 
-use super::{Format, Label, PLAIN, line_where, names_in};
+use super::{Format, Label, PLAIN, has, line_where, names_in};
 use crate::track::Aside;
 
 pub(super) const FORMAT: Format = Format {
@@ -23,6 +23,9 @@ pub(super) const FORMAT: Format = Format {
 };
 
 fn header(text: &str) -> Option<usize> {
+    if !has(text, "Peildatum") {
+        return None;
+    }
     line_where(text, |line| {
         let names = names_in(line);
         ["Locatie", "Filternummer", "Peildatum"].iter().all(|n| names.contains(n))

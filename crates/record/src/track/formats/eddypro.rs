@@ -1,6 +1,6 @@
 //! EddyPro: full output and biomet files, with groups above the names and units below them.
 
-use super::{Format, Known, Label, PLAIN, line_where};
+use super::{Format, Known, Label, PLAIN, has, line_where};
 use crate::track::{Aside, Delimiter};
 
 pub(super) const FORMAT: Format = Format {
@@ -16,6 +16,9 @@ pub(super) const FORMAT: Format = Format {
 };
 
 fn header(text: &str) -> Option<usize> {
+    if !has(text, "filename,date,time") {
+        return None;
+    }
     line_where(text, |line| line.trim_start_matches('\u{feff}').starts_with("filename,date,time,")).filter(|at| *at < 3)
 }
 

@@ -1,6 +1,6 @@
 //! YSI EXO: exports of Kor, in which a name ends with its unit.
 
-use super::{Format, Known, Label, PLAIN, line_where, names_in};
+use super::{Format, Known, Label, PLAIN, has, line_where, names_in};
 use crate::track::Aside;
 
 pub(super) const FORMAT: Format = Format {
@@ -18,6 +18,9 @@ pub(super) const FORMAT: Format = Format {
 };
 
 fn header(text: &str) -> Option<usize> {
+    if !has(text, "(Fract. Sec)") && !has(text, "Time (HH:mm:ss)") {
+        return None;
+    }
     line_where(text, |line| {
         line.contains("(Fract. Sec)") || (line.contains("Date (") && line.contains("Time (HH:mm:ss)"))
     })

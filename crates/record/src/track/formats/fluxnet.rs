@@ -1,6 +1,6 @@
 //! FLUXNET and AmeriFlux: fluxes of eddy covariance stations, under names that tell their units by agreement.
 
-use super::{Format, Known, Label, PLAIN, line_where};
+use super::{Format, Known, Label, PLAIN, has, line_where};
 use crate::track::{Aside, Delimiter};
 
 pub(super) const FORMAT: Format = Format {
@@ -16,6 +16,9 @@ pub(super) const FORMAT: Format = Format {
 };
 
 fn header(text: &str) -> Option<usize> {
+    if !has(text, "TIMESTAMP") {
+        return None;
+    }
     line_where(text, |line| {
         let line = line.trim_start_matches('\u{feff}');
         let names: Vec<&str> = line.split(',').map(str::trim).collect();

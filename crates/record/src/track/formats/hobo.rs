@@ -19,15 +19,17 @@ pub(super) const FORMAT: Format = Format {
 };
 
 fn is_header(line: &str) -> bool {
-    let named = line.contains("LGR S/N") || line.contains("Date Time, GMT");
+    let named = ["LGR S/N", "Date Time, GMT", "Date-Time ("].iter().any(|word| line.contains(word));
     named && line.contains("Date")
 }
 
 /// What the logger notes beside the samples.
-const NOTES: [&str; 9] = [
+const NOTES: [&str; 11] = [
     "Coupler Detached",
     "Coupler Attached",
-    "Host Connected",
+    "Host Connect",
+    "New Interval",
+    "Water Detect",
     "Stopped",
     "End Of File",
     "Button Up",
@@ -57,6 +59,8 @@ fn label(name: &str) -> Label {
     // `Temp, °F (LGR S/N: 1, SEN S/N: 2, LBL: water)`
     let bare = ["(LGR S/N", "(SEN S/N", "(LBL"].iter().filter_map(|open| name.find(open)).min();
     let bare = name[..bare.unwrap_or(name.len())].trim();
-    let unit = bare.rsplit_once(", ").map(|(_, unit)| unit.trim().to_owned());
-    Label { unit: unit.filter(|unit| !unit.is_empty() && !unit.starts_with("GMT")), aside: None }
+    // HOBOconnect writes `Ch: 1 - Temperature   (°C)`.
+    let bracketed = bare.strip_suffix(')').and_then(|b| b.rsplit_once('('));
+    let unit = bare.rsplit_once(", ").or(bracketed).map(|(_, unit)| unit.trim().to_owned());
+    Label { unit: unit.filter(|unit| !unit.is_empty() && !bare.starts_with("Date")), aside: None }
 }

@@ -1,6 +1,6 @@
 //! KNMI: hourly and daily data of the weather stations of the Netherlands, with a legend above.
 
-use super::{Format, Known, Label, PLAIN, line_where};
+use super::{Format, Known, Label, PLAIN, has, line_where};
 use crate::track::{Aside, Delimiter};
 
 pub(super) const FORMAT: Format = Format {
@@ -16,6 +16,9 @@ pub(super) const FORMAT: Format = Format {
 };
 
 fn header(text: &str) -> Option<usize> {
+    if !has(text, "YYYYMMDD") {
+        return None;
+    }
     line_where(text, |line| {
         let bare: String = line.chars().filter(|c| !c.is_whitespace() && *c != '#').collect();
         bare.starts_with("STN,YYYYMMDD")

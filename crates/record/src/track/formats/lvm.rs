@@ -106,7 +106,7 @@ impl Reader {
         let mut channel = 0;
         self.places = Vec::new();
         for (at, cell) in cells.iter().enumerate() {
-            let name = cell.lossy();
+            let name = cell.decoded();
             let time = at == 0 || name == "X_Value";
             if time || name.is_empty() || name == "Comment" {
                 self.places.push(None);
@@ -184,7 +184,7 @@ impl Reader {
 
 impl Header {
     fn take(&mut self, line: Piece<'_>, cells: &[Piece<'_>]) {
-        let value = |at: usize| cells.get(at).map_or_else(String::new, |c| c.lossy());
+        let value = |at: usize| cells.get(at).map_or_else(String::new, |c| c.decoded());
         let seconds = || number(*cells.get(1)?, self.decimal_comma);
         match cells.first().map_or("", |c| c.text()) {
             "X_Columns" => {
@@ -205,7 +205,7 @@ impl Header {
             }
             "Time" => self.of_day = clock(&value(1)).unwrap_or(self.of_day),
             // Before the separator is known, the line is not parted by it.
-            _ if line.bytes.starts_with(b"Separator") && line.lossy().contains("Comma") => self.separator = b',',
+            _ if line.bytes.starts_with(b"Separator") && line.decoded().contains("Comma") => self.separator = b',',
             _ => {}
         }
     }

@@ -1,6 +1,6 @@
 //! USGS RDB: tab-delimited tables of the National Water Information System.
 
-use super::{Format, Known, Label, PLAIN, line_where};
+use super::{Format, Known, Label, PLAIN, has, line_where};
 use crate::track::{Aside, Delimiter};
 
 pub(super) const FORMAT: Format = Format {
@@ -16,6 +16,9 @@ pub(super) const FORMAT: Format = Format {
 };
 
 fn header(text: &str) -> Option<usize> {
+    if !has(text, "agency_cd\t") {
+        return None;
+    }
     line_where(text, |line| line.starts_with("agency_cd\t"))
 }
 

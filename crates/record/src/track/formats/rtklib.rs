@@ -1,6 +1,6 @@
 //! RTKLIB: solutions (`.pos`), with the names in the last comment above the rows.
 
-use super::{Format, Known, Label, PLAIN};
+use super::{Format, Known, Label, PLAIN, has};
 use crate::track::{Aside, Delimiter};
 
 pub(super) const FORMAT: Format = Format {
@@ -20,6 +20,9 @@ pub(super) const FORMAT: Format = Format {
 
 /// The names, as the last comment above the rows has them.
 fn header(text: &str) -> Option<&str> {
+    if !has(text, "latitude(") && !has(text, "x-ecef(") && !has(text, "e-baseline(") {
+        return None;
+    }
     let is = |line: &&str| {
         let mut words = line.trim_start_matches('%').split_whitespace();
         let time = words.next().is_some_and(|w| matches!(w, "GPST" | "UTC" | "JST"));

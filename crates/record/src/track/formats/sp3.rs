@@ -83,7 +83,7 @@ impl Reader {
 
     fn record(&mut self, line: SourceLine<'_>, from: usize) {
         let Some(epoch) = self.epoch.clone() else { return };
-        let satellite = line.all.part(1..4).lossy().trim_end().replace(' ', "0");
+        let satellite = line.all.part(1..4).decoded().trim_end().replace(' ', "0");
         if satellite.is_empty() || line.all.bytes.len() < 18 {
             return;
         }

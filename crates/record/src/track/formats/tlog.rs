@@ -50,7 +50,7 @@ fn message(line: Piece<'_>) -> Option<Message<'_>> {
     let at = cells.iter().position(|c| c.bytes.starts_with(b"mavlink_"))?;
     let name = cells[at].text().trim_start_matches("mavlink_").trim_end_matches("_t");
     // System, component and number of the message stand right before its name.
-    let system = at.checked_sub(3).and_then(|at| cells.get(at)).map_or_else(String::new, |c| c.lossy());
+    let system = at.checked_sub(3).and_then(|at| cells.get(at)).map_or_else(String::new, |c| c.decoded());
     let mut values: Vec<(String, Piece<'_>)> = Vec::new();
     let (mut key, mut count) = ("", 0);
     for cell in cells.iter().skip(at + 1).filter(|c| !c.bytes.is_empty()) {

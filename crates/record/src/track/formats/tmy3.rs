@@ -54,7 +54,7 @@ fn sheet(body: &[u8], _: Want) -> Result<Sheet> {
 
 fn fields(names: &[Piece<'_>]) -> Vec<Field> {
     let mut fields = vec![Field::new("time", "")];
-    for name in names.iter().skip(2).map(|n| n.lossy().trim_matches('"').to_owned()) {
+    for name in names.iter().skip(2).map(|n| n.decoded().trim_matches('"').to_owned()) {
         let unit = name.rsplit_once('(').and_then(|(_, unit)| unit.strip_suffix(')')).unwrap_or("").to_owned();
         let beside = name.contains("source") || name.contains("uncert");
         let field = Field::new(name, &unit).nothing(Nothing::text(NO_VALUE));

@@ -13,7 +13,8 @@ pub(super) const FORMAT: Format = Format {
            channels; a track for each series, where there are several",
     known: |text| {
         let first = text.lines().find(|l| !l.trim().is_empty() && !l.starts_with("##")).unwrap_or("");
-        first.starts_with('#') && (first.contains("|*|") || key(&first[1..]).is_some())
+        let own = ["ZRXPVERSION", "REXCHANGE", "SANR"];
+        first.strip_prefix('#').is_some_and(|rest| rest.contains("|*|") || own.iter().any(|key| rest.starts_with(key)))
     },
     sheet: Some(sheet),
     ..PLAIN
@@ -58,7 +59,7 @@ impl Reader {
         if std::mem::take(&mut self.rows) {
             self.keys.clear();
         }
-        let text = line.all.lossy();
+        let text = line.all.decoded();
         for part in text.trim_start_matches('#').split("|*|").map(|p| p.trim_matches(['|', ';', ' '])) {
             if let Some((key, value)) = key(part) {
                 self.keys.push((key, value.to_owned()));

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use encoding_rs::WINDOWS_1252;
+
 /// A line of the text, without its line end.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SourceLine<'a> {
@@ -35,9 +37,12 @@ impl<'a> Piece<'a> {
         std::str::from_utf8(self.bytes).unwrap_or("")
     }
 
-    /// Its text as far as it can be read.
-    pub(crate) fn lossy(self) -> String {
-        String::from_utf8_lossy(self.bytes).into_owned()
+    /// Its text, as UTF-8 or else as Windows-1252.
+    pub(crate) fn decoded(self) -> String {
+        match std::str::from_utf8(self.bytes) {
+            Ok(text) => text.to_owned(),
+            Err(_) => WINDOWS_1252.decode_without_bom_handling(self.bytes).0.into_owned(),
+        }
     }
 
     /// Where it stands in the text.
