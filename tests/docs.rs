@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use wildpoint::method::METHODS;
 use wildpoint::repair;
 use wildpoint::session::{Session, Setup};
-use wildpoint::track::{LoadOptions, Source, load};
+use wildpoint::track::{FORMATS, LoadOptions, Source, load, refused};
 use wildpoint::tui::plot::Glyphs;
 use wildpoint::tui::theme::Theme;
 use wildpoint::tui::{Look, Opening, still};
@@ -38,7 +38,7 @@ fn with_part(text: &str, name: &str, part: &str) -> String {
     let end = text.find(&close);
     match (start, end) {
         (Some(start), Some(end)) if start <= end => format!("{}{part}{}", &text[..start], &text[end..]),
-        _ => panic!("the README has no part {name}"),
+        _ => panic!("the page has no part {name}"),
     }
 }
 
@@ -55,6 +55,31 @@ fn frame_methods_and_keys_of_the_readme_are_those_of_the_program() {
     let now = std::fs::read_to_string(path()).expect("the README is there");
     let first = now.lines().zip(new.lines()).position(|(a, b)| a != b);
     assert!(now == new, "README.md is stale from line {:?} on: run WILDPOINT_UPDATE=1 cargo test --test docs", first);
+}
+
+/// A table of two columns or more, as Markdown has it.
+fn table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
+    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+    let names: Vec<String> = head.iter().map(|h| (*h).to_owned()).collect();
+    let ruler = format!("|{}\n", "---|".repeat(head.len()));
+    // A pipe would part cells.
+    rows.map(|row| line(&row.iter().map(|c| c.replace('|', "\\|")).collect::<Vec<_>>()))
+        .fold(format!("{}{ruler}", line(&names)), |text, row| text + &row)
+}
+
+#[test]
+fn the_page_of_what_is_read_is_that_of_the_registry() {
+    let path = root().join("docs/what-it-reads.md");
+    let old = std::fs::read_to_string(&path).expect("the page is there");
+    let formats = FORMATS.iter().map(|f| vec![f.name.into(), f.about.into(), f.known_by.into(), f.maps.into()]);
+    let formats = table(&["format", "what it is", "known by", "what is read"], formats);
+    let refused = table(&["what", "what converts it"], refused().map(|(name, help)| vec![name.into(), help.into()]));
+    let new = with_part(&with_part(&old, "formats", &formats), "refused", &refused);
+    if std::env::var_os("WILDPOINT_UPDATE").is_some() {
+        std::fs::write(&path, &new).expect("the page can be written");
+    }
+    let now = std::fs::read_to_string(&path).expect("the page is there");
+    assert!(now == new, "docs/what-it-reads.md is stale: run WILDPOINT_UPDATE=1 cargo test --test docs");
 }
 
 #[test]

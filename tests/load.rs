@@ -215,7 +215,7 @@ fn what_is_no_table_of_numbers_is_refused_with_line_and_way_out() {
         ("header_alone.csv", "header_alone.csv:1: a header, and no rows"),
         ("words_only.csv", "words_only.csv:1: no column of numbers"),
         ("nmea.txt", "nmea.txt:1: NMEA sentences"),
-        ("ranging.npt", "ranging.npt:1: a laser ranging file"),
+        ("ranging.npt", "ranging.npt: no records with measurements in this file, which looks like CRD"),
         ("long_form.csv", "long_form.csv:1: a long table"),
         ("", "this is a folder"),
         ("not_there.csv", "cannot read"),

@@ -312,6 +312,10 @@ pub fn layout(track: &Track) -> String {
         Encoding::Utf16 { .. } => "UTF-16",
         Encoding::Latin1 => "Windows-1252",
     };
+    if let Some(view) = &d.view {
+        let packed = if d.gzip { ", gzip" } else { "" };
+        return format!("records of {}, {encoding}{packed}", view.format.name);
+    }
     let mut words = vec![format!("cells between {delimiter}"), encoding.to_owned()];
     if d.preamble > 1 + usize::from(d.units_row) {
         words.push(format!(

@@ -96,6 +96,12 @@ impl Layout {
     }
 
     fn told(track: Track, format: FormatArg, names: Vec<String>, options: &LoadOptions) -> Result<Self> {
+        if let Some(view) = &track.dialect.view {
+            return Err(Error::usage(
+                format!("{}: several lines make a row, and a stream is judged line by line", view.format.name),
+                "save the record as a file, and use `clean`",
+            ));
+        }
         let others = track.channels.len().saturating_sub(1);
         // A file can be looked at first; a stream would be judged by the wrong column all along.
         // That a first column without a name is the time can be seen in a file, not in its first rows.

@@ -161,6 +161,7 @@ pub(crate) fn made_of(seconds: Vec<f64>, channels: [(&str, Vec<f64>); 2]) -> Tra
         bytes: 0,
         share: Default::default(),
         dialect: Dialect {
+            view: None,
             delimiter: Delimiter::Byte(b','),
             quote: None,
             decimal_comma: false,

@@ -51,6 +51,7 @@ mod time;
 mod timing;
 mod tokens;
 mod told;
+mod view;
 mod wanted;
 mod waves;
 mod widen;
@@ -74,6 +75,7 @@ pub use printable::{is_hidden, is_shown, printable, printable_json, printable_li
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
 pub use rows::for_each_row;
 pub use samples::Samples;
+pub use shape::refused;
 pub use spool::{DASH, Spool};
 pub use standing::{Lost, Standing, covered};
 pub use style::Style;
@@ -159,6 +161,17 @@ pub struct Dialect {
     pub styles: Vec<Option<Style>>,
     /// True where every row has the same length, and cells stand below each other.
     pub fixed_width: bool,
+    /// The format that makes a table of the text, where its lines are no rows of one.
+    pub view: Option<Viewed>,
+}
+
+/// A table that a format makes of a text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Viewed {
+    /// The format.
+    pub format: &'static Format,
+    /// Which of several tables, from 1. None: that with the most rows.
+    pub table: Option<usize>,
 }
 
 /// Where the rows of a table stand in the text.
@@ -176,6 +189,8 @@ pub struct RowsAt {
     pub(crate) repeats: Vec<Vec<u8>>,
     /// What comments begin with, besides `#`, `%` and `//`.
     pub(crate) mark: Option<tokens::Mark>,
+    /// In a table that a format makes of a text: the lines of the text where its first rows begin.
+    pub(crate) made_of: Vec<u64>,
 }
 
 /// What stands between two cells.
@@ -410,6 +425,22 @@ pub struct Faults {
 }
 
 impl Faults {
+    /// Takes each line for the one that `of` gives for it.
+    pub(crate) fn move_lines(&mut self, of: impl Fn(u64) -> u64) {
+        let faults = [
+            &mut self.repeated_times,
+            &mut self.backward_times,
+            &mut self.unreadable_times,
+            &mut self.unreadable_cells,
+            &mut self.ragged_rows,
+            &mut self.infinite_cells,
+            &mut self.wild_times,
+        ];
+        for (line, _) in faults.into_iter().flat_map(|fault| &mut fault.first) {
+            *line = of(*line);
+        }
+    }
+
     /// The kinds of which there are any.
     pub fn kinds(&self) -> impl Iterator<Item = (FaultKind, &Fault)> {
         let faults = [

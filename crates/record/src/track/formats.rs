@@ -1,61 +1,307 @@
 //! Formats that are known by name: what their files say of themselves in other places than a line of names.
+//!
+//! A format is one row of [`FORMATS`]. Of a delimited table it completes what the user told; a text of records of several
+//! kinds it makes a table of, with [`Format::sheet`].
 
-use super::LoadOptions;
+use encoding_rs::WINDOWS_1252;
 
+use super::view::{Field, Sheet, View, Want};
+use super::{Aside, Delimiter, LoadOptions, Rules};
+use crate::error::Result;
+
+mod ardupilot;
+mod betaflight;
 mod cnv;
+mod crd;
+mod dino;
+mod diver;
 mod dwd;
+mod eddypro;
+mod exo;
+mod fluxnet;
+mod hobo;
 mod iaga;
+mod kiwis;
+mod knmi;
+mod lvm;
 mod ndbc;
+mod nmea;
 mod oem;
+mod pbo;
+mod rdb;
+mod rtklib;
 mod sbs1;
+mod solinst;
+mod sp3;
 mod stk;
 mod surfrad;
+mod tdm;
+mod tenv3;
+mod tlog;
+mod tmy3;
+mod toa5;
+mod zrxp;
 
 /// A format, one row for each.
-#[derive(Debug)]
 pub struct Format {
     /// Its name.
     pub name: &'static str,
     /// What its files are.
     pub about: &'static str,
+    /// How its files are known, in words.
+    pub known_by: &'static str,
+    /// What becomes the time, what channels, and what is no value, in words.
+    pub maps: &'static str,
     /// True for the first lines of such a file.
     known: fn(&str) -> bool,
     /// Completes what the user told by what such files are known to have.
-    complete: fn(&str, &mut LoadOptions),
+    complete: fn(&str, &mut Known),
+    /// What is known of a column by its name, from the first lines of the file.
+    label: fn(&str, &str) -> Label,
+    /// Makes a table of the records of the whole text, where its lines are no rows of one.
+    pub(crate) sheet: Option<fn(&[u8], Want) -> Result<Sheet>>,
+}
+
+/// What a format adds to nothing: a row of the registry names what is different.
+const PLAIN: Format = Format {
+    name: "",
+    about: "",
+    known_by: "",
+    maps: "",
+    known: |_| false,
+    complete: |_, _| {},
+    label: |_, _| Label::default(),
+    sheet: None,
+};
+
+impl PartialEq for Format {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Format {}
+
+impl std::fmt::Debug for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+/// What is known of a file before its table is looked for.
+#[derive(Debug, Default)]
+pub(crate) struct Known {
+    /// What the user told, completed by the format.
+    pub(crate) options: LoadOptions,
+    /// What was assumed, in a line each.
+    pub(crate) said: Vec<String>,
+    /// The columns of the time, with commas between them.
+    time: Option<String>,
+    /// The format, with the first lines of the file.
+    format: Option<(&'static Format, String)>,
+}
+
+/// What a format knows of a column.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Label {
+    /// Its unit, where the format tells it.
+    pub(crate) unit: Option<String>,
+    /// Why it is no channel, where it is none.
+    pub(crate) aside: Option<Aside>,
 }
 
 /// All of them, in the order in which they are tried.
-pub static FORMATS: [Format; 8] =
-    [cnv::FORMAT, oem::FORMAT, stk::FORMAT, iaga::FORMAT, sbs1::FORMAT, ndbc::FORMAT, dwd::FORMAT, surfrad::FORMAT];
+pub static FORMATS: [Format; 32] = [
+    cnv::FORMAT,
+    oem::FORMAT,
+    stk::FORMAT,
+    iaga::FORMAT,
+    sbs1::FORMAT,
+    ndbc::FORMAT,
+    dwd::FORMAT,
+    toa5::FORMAT,
+    hobo::FORMAT,
+    solinst::FORMAT,
+    diver::FORMAT,
+    exo::FORMAT,
+    rdb::FORMAT,
+    knmi::FORMAT,
+    eddypro::FORMAT,
+    fluxnet::FORMAT,
+    kiwis::FORMAT,
+    dino::FORMAT,
+    pbo::FORMAT,
+    tenv3::FORMAT,
+    rtklib::FORMAT,
+    betaflight::FORMAT,
+    surfrad::FORMAT,
+    lvm::FORMAT,
+    zrxp::FORMAT,
+    tmy3::FORMAT,
+    nmea::FORMAT,
+    crd::FORMAT,
+    tdm::FORMAT,
+    sp3::FORMAT,
+    ardupilot::FORMAT,
+    tlog::FORMAT,
+];
 
 /// How much of a file is looked at.
 const LOOKED_AT: usize = 64 << 10;
 
-/// The format of a file, by the first bytes of its text.
-#[must_use]
-pub fn format_of(body: &[u8]) -> Option<(&'static Format, String)> {
-    let text = String::from_utf8_lossy(&body[..body.len().min(LOOKED_AT)]).into_owned();
-    FORMATS.iter().find(|format| (format.known)(&text)).map(|format| (format, text))
-}
-
-/// What the user told, completed by what the format of the file is known to have.
-pub(crate) fn completed(body: &[u8], options: &LoadOptions) -> (LoadOptions, Option<&'static Format>) {
-    let mut completed = options.clone();
-    let Some((format, text)) = format_of(body) else { return (completed, None) };
-    (format.complete)(&text, &mut completed);
-    (completed, Some(format))
-}
-
-/// Names for the columns, unless the user told some.
-fn name(options: &mut LoadOptions, names: &[&str]) {
-    if options.names.is_empty() && options.header_line.is_none() {
-        options.names = names.iter().map(|n| (*n).to_owned()).collect();
+/// The first part of a text, as UTF-8 or else as Windows-1252.
+fn beginning(body: &[u8]) -> String {
+    let part = &body[..body.len().min(LOOKED_AT)];
+    match std::str::from_utf8(part) {
+        Ok(text) => text.to_owned(),
+        // A character may be cut at the end.
+        Err(e) if e.error_len().is_none() => String::from_utf8_lossy(&part[..e.valid_up_to()]).into_owned(),
+        Err(_) => WINDOWS_1252.decode_without_bom_handling(part).0.into_owned(),
     }
 }
 
-/// Markers for "no value" besides those that the user told.
-fn missing(options: &mut LoadOptions, markers: &[&str]) {
-    options.missing.extend(markers.iter().map(|m| (*m).to_owned()));
+/// True where `text` holds `key`: asked before its lines are.
+fn has(text: &str, key: &str) -> bool {
+    memchr::memmem::find(text.as_bytes(), key.as_bytes()).is_some()
+}
+
+/// The format of a file, by the first bytes of its text.
+#[must_use]
+pub fn format_of(body: &[u8]) -> Option<(&'static Format, String)> {
+    let text = beginning(body);
+    FORMATS.iter().find(|format| (format.known)(&text)).map(|format| (format, text))
+}
+
+/// The format of a file that is read by the rules of `options`, where the format makes a table of it.
+pub(crate) fn viewed(body: &[u8], options: &LoadOptions) -> Option<&'static Format> {
+    let asked = options.rules == Rules::Second;
+    format_of(body).filter(|_| asked).map(|(format, _)| format).filter(|format| format.sheet.is_some())
+}
+
+impl Known {
+    /// What the user told of a text, completed by what its format is known to have.
+    pub(crate) fn of(body: &[u8], options: &LoadOptions) -> Self {
+        let mut known = Self { options: options.clone(), ..Self::default() };
+        if options.rules == Rules::First {
+            return known;
+        }
+        let Some((format, text)) = format_of(body) else { return known };
+        (format.complete)(&text, &mut known);
+        known.said.insert(0, format.words());
+        known.format = Some((format, text));
+        known
+    }
+
+    /// What the user told of a view, completed by what the view has.
+    pub(crate) fn of_view(view: &View, options: &LoadOptions) -> Self {
+        let sheet = &view.sheet;
+        let mut known = Self { options: options.clone(), ..Self::default() };
+        let own = &mut known.options;
+        (own.delimiter, own.quotes, own.header) = (Some(Delimiter::Byte(b'\t')), Some(false), None);
+        (own.header_line, own.skip, own.units_line) = (Some(1), None, None);
+        (own.comment, own.table) = (None, None);
+        own.decimal_comma = Some(sheet.decimal_comma);
+        if !sheet.timed {
+            own.time.get_or_insert_with(|| "sample".to_owned());
+        }
+        if let Some(field) = sheet.track.and_then(|track| sheet.fields.get(track)) {
+            own.track.get_or_insert_with(|| field.name.clone());
+        }
+        known.time = sheet.fields.first().map(|field| field.name.clone());
+        known.said.push(view.format.words());
+        known.said.extend(sheet.said.iter().cloned());
+        known
+    }
+
+    /// What is known of the column of this name.
+    pub(crate) fn label(&self, name: &str) -> Label {
+        self.format.as_ref().map(|(format, text)| (format.label)(text, name)).unwrap_or_default()
+    }
+
+    /// Names for the columns, unless the user told some.
+    fn name<'a>(&mut self, names: impl IntoIterator<Item = &'a str>) {
+        if self.options.names.is_empty() && self.options.header_line.is_none() {
+            self.options.names = names.into_iter().map(str::to_owned).collect();
+        }
+    }
+
+    /// Markers for "no value" besides those that the user told.
+    fn missing<'a>(&mut self, markers: impl IntoIterator<Item = &'a str>) {
+        self.options.missing.extend(markers.into_iter().map(str::to_owned));
+    }
+
+    /// The line (from 0) that names the columns, unless the user says where it is.
+    fn header(&mut self, line: Option<usize>) {
+        if self.options.skip.is_none() && self.options.names.is_empty() && self.options.header != Some(false) {
+            self.options.header_line = self.options.header_line.or(line.map(|at| at + 1));
+        }
+    }
+
+    /// The line (from 0) of the units, unless the user says where it is.
+    fn units(&mut self, line: usize) {
+        if self.options.skip.is_none() && self.options.header != Some(false) {
+            self.options.units_line.get_or_insert(line + 1);
+        }
+    }
+
+    /// The column or columns of the time, where they are there and the user names no other.
+    fn time(&mut self, columns: &str) {
+        self.time = Some(columns.to_owned());
+    }
+
+    /// Takes the columns of the time where these names have them.
+    pub(crate) fn settle_time(&mut self, names: &[String]) {
+        let there = |columns: &String| {
+            names.contains(columns) || columns.split(',').all(|c| names.iter().any(|n| n == c.trim()))
+        };
+        if let Some(columns) = self.time.take().filter(there) {
+            self.options.time.get_or_insert(columns);
+        }
+    }
+}
+
+impl Format {
+    /// That a file is one of its files.
+    pub(crate) fn words(&self) -> String {
+        format!("recognised as {}: {}", self.name, self.about)
+    }
+}
+
+impl Label {
+    /// What a view knows of its column.
+    pub(crate) fn of(field: &Field) -> Self {
+        Self { unit: Some(field.unit.clone()), aside: field.aside }
+    }
+
+    fn unit(unit: &str) -> Self {
+        Self { unit: Some(unit.to_owned()), aside: None }
+    }
+
+    fn aside(aside: Aside) -> Self {
+        Self { unit: None, aside: Some(aside) }
+    }
+}
+
+/// The index of the first line for which this is true.
+fn line_where(text: &str, is: impl Fn(&str) -> bool) -> Option<usize> {
+    text.lines().position(is)
+}
+
+/// The cells of a line of names between any of the usual delimiters, without quotes.
+fn names_in(line: &str) -> Vec<&str> {
+    let delimiter = [';', '\t', ','].into_iter().max_by_key(|d| line.matches(*d).count()).unwrap_or(',');
+    line.split(delimiter).map(|cell| cell.trim().trim_matches('"').trim()).collect()
+}
+
+/// Takes the month as first in dates of short numbers, where no line shows that the day is.
+fn month_first_unless_shown(text: &str, options: &mut LoadOptions) {
+    let day_first = |token: &str| {
+        let mut numbers = token.split('/').map(|n| n.parse::<u32>().unwrap_or(0));
+        matches!((numbers.next(), numbers.next(), numbers.next()), (Some(13..=31), Some(1..=12), Some(_)))
+    };
+    if !text.split([' ', ',', '"', ';', '\t', '\n']).any(day_first) {
+        options.day_first.get_or_insert(false);
+    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::formats::{Known, Label};
 use super::number::Reading;
 use super::odd::{Oddity, odd};
 use super::sniff::{SAMPLE_BYTES, sniff};
@@ -9,7 +10,8 @@ use super::style::Style;
 use super::table::{Heading, Line, Lines, MOST_COLUMNS, NoTable, Table, heading, mark_of, tables, usual_width};
 use super::text::Text;
 use super::tokens::{Layout, Mark, OpenQuote};
-use super::{LoadOptions, Rules, names, printable};
+use super::view::View;
+use super::{Aside, LoadOptions, Rules, names, printable};
 use crate::error::{Error, Result};
 
 /// Rows that are looked at.
@@ -64,6 +66,8 @@ pub(crate) struct Head {
     pub(crate) styles: Vec<Option<Style>>,
     /// True where every row has the same length.
     pub(crate) fixed_width: bool,
+    /// For each column, why it is no channel, as far as the format of the file tells.
+    pub(crate) asides: Vec<Option<Aside>>,
     /// What was recognised that a user may want to correct.
     pub(crate) said: Vec<String>,
     /// True when the first lines were enough to tell all.
@@ -182,9 +186,25 @@ impl Head {
             oddities,
             styles,
             fixed_width,
+            asides: Vec::new(),
             said: seen.said(number, first, of.layout.mark, options),
             complete: seen.complete && end.is_none(),
         })
+    }
+
+    /// Takes what the format of the file tells of its columns.
+    pub(crate) fn take(&mut self, known: &Known, view: Option<&View>) {
+        let labels: Vec<Label> = match view {
+            Some(view) => view.sheet.fields.iter().map(Label::of).collect(),
+            None => self.names.iter().map(|name| known.label(name)).collect(),
+        };
+        self.units.iter_mut().zip(&labels).for_each(|(unit, label)| {
+            if let Some(told) = &label.unit {
+                unit.clone_from(told);
+            }
+        });
+        self.asides = labels.into_iter().map(|label| label.aside).collect();
+        self.said.extend(known.said.iter().cloned());
     }
 
     /// True when the head of `part`, the first whole lines of a longer text, is that of the whole text: nothing of what

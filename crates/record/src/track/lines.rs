@@ -47,7 +47,7 @@ pub fn first_lines(source: &Source, at: Option<&RowsAt>, most: usize) -> Vec<Fil
     let mut start = 0;
     for (i, raw) in body.split(|b| *b == b'\n').enumerate() {
         let text: String = String::from_utf8_lossy(raw).trim_end_matches('\r').chars().take(LONGEST).collect();
-        let part = at.map_or(LinePart::Unknown, |at| part_of(at, start));
+        let part = at.map_or(LinePart::Unknown, |at| part_of(at, start, i as u64 + 1));
         lines.push(FileLine { number: i + 1, text, part });
         start += raw.len() + 1;
     }
@@ -64,7 +64,12 @@ pub fn first_lines(source: &Source, at: Option<&RowsAt>, most: usize) -> Vec<Fil
     lines
 }
 
-fn part_of(at: &RowsAt, start: usize) -> LinePart {
+fn part_of(at: &RowsAt, start: usize, line: u64) -> LinePart {
+    if !at.made_of.is_empty() {
+        // Several lines may make a row: what stands after the first of them belongs to one.
+        let before = at.made_of.iter().any(|made| *made <= line);
+        return if before { LinePart::Row } else { LinePart::Preamble };
+    }
     let is = |place: Option<(usize, usize)>| place.is_some_and(|(p, _)| p == start);
     match () {
         () if is(at.header) => LinePart::Header,
@@ -108,6 +113,13 @@ mod tests {
         let parts: Vec<LinePart> = first_lines(&source, Some(&track.dialect.rows), 5).iter().map(|l| l.part).collect();
         use LinePart::{Header, Preamble, Row, Units};
         assert_eq!(parts, [Preamble, Header, Units, Row, Row]);
+        // Records: the first epoch begins in the second line.
+        let text =
+            b"# a logger\n$GPGGA,100000,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,\n$GPVTG,1,T,,M,2,N,3,K\n";
+        let records = Source::BuiltIn { name: "test", bytes: text[..].into() };
+        let track = load(&records, &LoadOptions::default()).unwrap();
+        let lines = first_lines(&records, Some(&track.dialect.rows), 3);
+        assert_eq!(lines.iter().map(|l| l.part).collect::<Vec<_>>(), [Preamble, Row, Row]);
         assert!(first_lines(&source, None, 2).iter().all(|l| l.part == LinePart::Unknown));
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::body::{Body, Numbers, Plan};
 use super::feed::{Feed, Unfit};
-use super::formats;
+use super::formats::{self, Known};
 use super::head::{Head, open_quote};
 use super::mend::{About, Mended};
 use super::odd::Oddity;
@@ -17,10 +17,11 @@ use super::targets::{self, Targets};
 use super::text::{Text, path_of, sha256, stored};
 use super::timing::{Timing, choose};
 use super::tokens::inner;
+use super::view::Want;
 use super::waves::{Failure, parse};
 use super::{
     Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Extent, Fault, Faults, LoadOptions, RowsAt, Rules,
-    Source, TimeAxis, TimeFormat, Track, Wanted, notes, printable, rows,
+    Source, TimeAxis, TimeFormat, Track, Viewed, Wanted, notes, printable, rows,
 };
 use crate::error::{Error, Result};
 
@@ -59,7 +60,10 @@ pub fn load_extent(source: &Source, options: &LoadOptions, extent: Extent, wante
     let stored = stored(source, extent)?;
     still()?;
     refuse_binaries(&stored, &path)?;
-    let text = Text::of(&stored, &path, options.encoding)?;
+    let mut text = Text::of(&stored, &path, options.encoding)?;
+    if let Some(format) = formats::viewed(text.body(), options) {
+        text = text.viewed(format, Want { table: options.table }, &path)?;
+    }
     still()?;
     let understood = Understood::of(&text, options, &path)?;
     let line_end = understood.head.layout.line_end;
@@ -80,7 +84,11 @@ pub fn load_extent(source: &Source, options: &LoadOptions, extent: Extent, wante
     })?;
     let track = understood.track(source, (sha256, stored.len() as u64), parsed, wanted, &|| Ok(feed(text.body())));
     still()?;
-    track
+    let mut track = track?;
+    if let Some(view) = &text.view {
+        track.faults.move_lines(|line| view.line(line));
+    }
+    Ok(track)
 }
 
 /// What the head of a file tells of the whole.
@@ -94,7 +102,14 @@ pub(super) struct Understood {
     rules: Rules,
     /// What the user told, completed by the format.
     options: LoadOptions,
+    /// The format that makes the table, if one does.
+    viewed: Option<Viewed>,
+    /// The lines of the text where the first rows of that table begin.
+    made_of: Vec<u64>,
 }
+
+/// So many lines of rows are kept to be shown.
+const LINES_KEPT: usize = 4096;
 
 /// A number that is written with a decimal comma between commas would be two cells.
 fn refuse_torn_decimals(head: &Head) -> Result<()> {
@@ -117,14 +132,18 @@ pub(super) type Again<'a> = &'a dyn Fn() -> Result<Feed<'a>>;
 impl Understood {
     /// From the text, or from so much of it that [`Head::needs_no_more`].
     pub(super) fn of(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
-        refuse_other_formats(text.body(), path)?;
-        let (completed, format) = match options.rules {
-            Rules::First => (options.clone(), None),
-            Rules::Second => formats::completed(text.body(), options),
-        };
+        let view = text.view.as_deref();
+        if view.is_none() {
+            refuse_other_formats(text.body(), path)?;
+        }
+        let mut known = view.map_or_else(|| Known::of(text.body(), options), |view| Known::of_view(view, options));
+        let mut head = Head::of(text, &known.options, path)?;
+        known.settle_time(&head.names);
+        head.take(&known, view);
+        let viewed = view.map(|view| Viewed { format: view.format, table: options.table });
+        let made_of = view.map(|v| v.lines.iter().copied().take(LINES_KEPT).collect()).unwrap_or_default();
+        let completed = known.options;
         let options = &completed;
-        let mut head = Head::of(text, options, path)?;
-        head.said.extend(format.map(|f| format!("recognised as {}: {}", f.name, f.about)));
         refuse_torn_decimals(&head)?;
         if options.track.is_none() {
             refuse_long_form(&head, path)?;
@@ -134,7 +153,8 @@ impl Understood {
         let roles = assign(&head, timing.as_ref(), options)?;
         let (encoding, gzip) = (text.encoding, text.gzip);
         let rules = options.rules;
-        Ok(Self { head, timing, roles, encoding, gzip, path: path.to_path_buf(), rules, options: completed })
+        let path = path.to_path_buf();
+        Ok(Self { head, timing, roles, encoding, gzip, path, rules, options: completed, viewed, made_of })
     }
 
     /// Parses the rows of a feed that begins with the first of them and has about so many bytes; gives the feed of
@@ -312,9 +332,11 @@ impl Understood {
             units: head.units_at,
             repeats: head.repeats.clone(),
             mark: head.layout.mark,
+            made_of: self.made_of.clone(),
         };
         Dialect {
             rows,
+            view: self.viewed.clone(),
             styles: head.styles.clone(),
             fixed_width: head.fixed_width,
             delimiter: head.layout.delimiter,

@@ -159,7 +159,7 @@ fn number(text: &str, decimal_comma: bool) -> Option<(usize, f64, Option<Oddity>
     {
         length -= last.len_utf8();
     }
-    let body = &text[from..length];
+    let body = text.get(from..length)?;
     let (plain, grouped) = ungrouped(body, decimal_comma)?;
     let mut mantissa = plain;
     let mut how = grouped.then_some(Oddity::Thousands);
@@ -222,6 +222,13 @@ fn ungrouped(body: &str, decimal_comma: bool) -> Option<(String, bool)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_sign_before_text_is_no_number() {
+        for cell in ["-»¿\"Plot Title: 10056829\"", "-x7", "+ x7", "-"] {
+            assert_eq!(odd(cell.as_bytes(), false), None, "{cell}");
+        }
+    }
 
     #[test]
     fn numbers_are_found_in_what_people_write_around_them() {

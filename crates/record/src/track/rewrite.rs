@@ -55,6 +55,9 @@ pub fn rewrite(track: &Track, changes: &Changes, out: &mut dyn Write) -> Result<
     let text = text_of(track, &stored)?;
     let mut pen = Pen { out, encoding: text.encoding, track };
     pen.raw(text.mark())?;
+    if let Some(view) = &text.view {
+        return super::view::rewrite(track, &text, view, changes, &mut pen);
+    }
     let mut editor = Editor {
         track,
         layout: track.dialect.layout(text.body()),

@@ -71,7 +71,8 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
             ColumnKind::Aside(Aside::Flag)
         }
         ColumnKind::Number if options.rules == Rules::Second && !is_time(c) && !beside.contains(&c) => {
-            aside::by_sample(head, c, timing).map_or(ColumnKind::Number, ColumnKind::Aside)
+            let told = head.asides.get(c).copied().flatten();
+            told.or_else(|| aside::by_sample(head, c, timing)).map_or(ColumnKind::Number, ColumnKind::Aside)
         }
         kind => kind,
     };

@@ -5,6 +5,7 @@ use super::feed::Feed;
 use super::head::open_quote;
 use super::text::{Stored, Text, path_of, sha256, stored};
 use super::tokens::{Layout, OpenQuote, Record, RecordKind, Records, Span, line_end_of, split};
+use super::view::Want;
 use super::{Dialect, Extent, Track, Wanted};
 use crate::error::{Error, Result};
 
@@ -49,7 +50,12 @@ pub(crate) fn unchanged(track: &Track) -> Result<Stored<'_>> {
 /// # Errors
 /// As [`Text::of`].
 pub(crate) fn text_of<'a>(track: &Track, stored: &'a [u8]) -> Result<Text<'a>> {
-    Text::of(stored, &path_of(&track.source), Some(track.dialect.encoding))
+    let path = path_of(&track.source);
+    let text = Text::of(stored, &path, Some(track.dialect.encoding))?;
+    match &track.dialect.view {
+        Some(viewed) => text.viewed(viewed.format, Want { table: viewed.table }, &path),
+        None => Ok(text),
+    }
 }
 
 impl Dialect {
@@ -133,7 +139,8 @@ pub(crate) fn walk<'a>(
             break;
         }
         let record = record.map_err(|q| open_quote(&path_of(&track.source), q))?;
-        if !walk.take(&record, &mut f)? {
+        let line = text.view.as_ref().map_or(record.line, |view| view.line(record.line));
+        if !walk.take(&Record { line, ..record }, &mut f)? {
             break;
         }
     }

@@ -159,6 +159,15 @@ const BINARIES: [Binary; 22] = [
     },
 ];
 
+/// What is no text and is refused by its name: what it is, and what converts it.
+pub fn refused() -> impl Iterator<Item = (&'static str, &'static str)> {
+    BINARIES.iter().map(|b| (b.name, b.help)).chain([(ASTERIX, ASTERIX_HELP)])
+}
+
+const ASTERIX: &str = "radar messages (ASTERIX)";
+const ASTERIX_HELP: &str =
+    "convert it first, for example with asterix (pip install asterix_decoder), and write the plots as CSV";
+
 /// ASTERIX: a category, a length of two bytes that leads to the next category, and no text.
 fn is_asterix(bytes: &[u8]) -> bool {
     let [category, high, low, ..] = bytes else { return false };
@@ -181,9 +190,7 @@ pub(crate) fn refuse_binaries(stored: &[u8], path: &Path) -> Result<()> {
         return Err(Error::input(path, format!("{}, not a table of text", binary.name), binary.help));
     }
     if is_asterix(stored) {
-        let help =
-            "convert it first, for example with asterix (pip install asterix_decoder), and write the plots as CSV";
-        return Err(Error::input(path, "radar messages (ASTERIX), not a table of text", help));
+        return Err(Error::input(path, format!("{ASTERIX}, not a table of text"), ASTERIX_HELP));
     }
     Ok(())
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use memchr::memrchr;
 
 use super::feed::{Check, Feed, Supply, Unfit};
+use super::formats::viewed;
 use super::load::Understood;
 use super::text::{Text, path_of};
 use super::waves::Failure;
@@ -97,6 +98,10 @@ fn understood(
         let lines = &part[..=end];
         check.of(lines).map_err(Failure::Unfit)?;
         let text = Text::part(lines, encoding, gzip);
+        // A table that is made of the records needs all of them.
+        if viewed(text.body(), options).is_some() {
+            return Err(UNFIT);
+        }
         let understood = Understood::of(&text, options, path).map_err(|_| UNFIT)?;
         if understood.head.data_end.is_none() && understood.head.needs_no_more(text.body()) {
             let before = understood.head.data_start;

@@ -11,7 +11,8 @@ use flate2::read::MultiGzDecoder;
 use memchr::{memchr, memchr_iter};
 use sha2::{Digest, Sha256};
 
-use super::{Encoding, Extent, Source, Wanted};
+use super::view::{View, Want};
+use super::{Encoding, Extent, Format, Source, Wanted};
 use crate::error::{Error, Result};
 use crate::memory::Share;
 
@@ -25,11 +26,13 @@ pub(crate) struct Text<'a> {
     bytes: Cow<'a, [u8]>,
     start: usize,
     /// What of it is not borrowed.
-    _share: Share,
+    share: Share,
     /// How the source encodes it.
     pub(crate) encoding: Encoding,
     /// True when the source is gzipped.
     pub(crate) gzip: bool,
+    /// The table that the format of the text makes of it.
+    pub(crate) view: Option<Box<View>>,
 }
 
 /// The name of a source in messages.
@@ -112,7 +115,7 @@ impl<'a> Text<'a> {
     /// The first part of a text, in the encoding that the whole was taken for.
     pub(crate) fn part(bytes: &'a [u8], encoding: Encoding, gzip: bool) -> Self {
         let start = if encoding == (Encoding::Utf8 { bom: true }) { 3 } else { 0 };
-        Self { bytes: Cow::Borrowed(bytes), start, _share: Share::default(), encoding, gzip }
+        Self { bytes: Cow::Borrowed(bytes), start, share: Share::default(), encoding, gzip, view: None }
     }
 
     /// The text in `stored`, in the `wanted` encoding or in the one its bytes show.
@@ -143,12 +146,29 @@ impl<'a> Text<'a> {
             Encoding::Utf8 { bom } => eight_bit(&bytes[start..], bom, wanted, path)?,
             other => other,
         };
-        Ok(Self { bytes, start, _share: share, encoding, gzip })
+        Ok(Self { bytes, start, share, encoding, gzip, view: None })
     }
 
-    /// The bytes that hold records.
+    /// The bytes that hold rows: those of the source, or of the table that its format makes of them.
     pub(crate) fn body(&self) -> &[u8] {
+        self.view.as_ref().map_or_else(|| self.source(), |view| &view.table)
+    }
+
+    /// The bytes of the source.
+    pub(crate) fn source(&self) -> &[u8] {
         &self.bytes[self.start..]
+    }
+
+    /// The same with the table that `format` makes of it.
+    ///
+    /// # Errors
+    /// As [`View::of`]; [`Error::Memory`].
+    pub(crate) fn viewed(mut self, format: &'static Format, want: Want, path: &Path) -> Result<Self> {
+        if let Some(view) = View::of(format, self.source(), self.encoding, want).map_err(|e| of_file(e, path))? {
+            self.share.add(view.bytes()).map_err(Error::memory(path))?;
+            self.view = Some(Box::new(view));
+        }
+        Ok(self)
     }
 
     /// What the source starts with before its first record, to be written again.
@@ -158,6 +178,14 @@ impl<'a> Text<'a> {
             Encoding::Utf16 { big_endian: true } => b"\xfe\xff",
             Encoding::Utf8 { .. } | Encoding::Latin1 => &self.bytes[..self.start],
         }
+    }
+}
+
+/// An error of a format, which does not know the name of the file.
+fn of_file(e: Error, path: &Path) -> Error {
+    match e {
+        Error::Input { line, what, help, .. } => Error::Input { path: path.to_path_buf(), line, what, help },
+        other => other,
     }
 }
 

@@ -1,23 +1,33 @@
 //! SURFRAD: surface radiation, minute by minute.
 
-use super::{Format, missing, name};
-use crate::track::LoadOptions;
+use super::{Format, Known, PLAIN};
 
 pub(super) const FORMAT: Format = Format {
     name: "SURFRAD",
     about: "surface radiation, as NOAA distributes it",
+    known_by: "`m version` in the second line",
+    maps: "year to minute are the time, -9999.9 is no value",
     known: |text| {
         let mut lines = text.lines();
         let second = lines.nth(1).unwrap_or("");
         second.contains("m version") && second.split_whitespace().count() >= 5
     },
     complete,
+    ..PLAIN
 };
 
-fn complete(_: &str, options: &mut LoadOptions) {
-    name(
-        options,
-        &["year", "doy", "month", "day", "hour", "minute", "decimal_hour", "zenith_deg", "dw_solar", "qc_dw_solar"],
-    );
-    missing(options, &["-9999.9"]);
+fn complete(_: &str, known: &mut Known) {
+    known.name([
+        "year",
+        "doy",
+        "month",
+        "day",
+        "hour",
+        "minute",
+        "decimal_hour",
+        "zenith_deg",
+        "dw_solar",
+        "qc_dw_solar",
+    ]);
+    known.missing(["-9999.9"]);
 }
