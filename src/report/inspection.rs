@@ -312,10 +312,11 @@ pub fn layout(track: &Track) -> String {
         ));
     }
     words.push(if d.header { "header" } else { "no header" }.to_owned());
-    for (yes, word) in [(d.units_row, "units row"), (d.decimal_comma, "decimal comma"), (d.gzip, "gzip")] {
+    for (yes, word) in [(d.units_row, "units row"), (d.decimal_comma, "decimal comma")] {
         if yes {
             words.push(word.to_owned());
         }
     }
+    words.extend(d.packing.map(|packing| packing.name.to_owned()));
     words.join(", ")
 }

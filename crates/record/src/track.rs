@@ -30,6 +30,7 @@ mod odd;
 mod options;
 mod order;
 mod outputs;
+mod packing;
 mod preview;
 mod printable;
 mod quick;
@@ -69,6 +70,7 @@ pub use options::{LoadOptions, Rules};
 #[cfg(any(test, feature = "faults"))]
 pub use outputs::faults;
 pub use outputs::{Outputs, take_unfinished_away};
+pub use packing::{PACKINGS, Packing, unpacked_name};
 pub use preview::Preview;
 pub use printable::{is_hidden, is_shown, printable, printable_json, printable_lines};
 pub use rewrite::{CellChange, Changes, NewRow, rewrite};
@@ -143,8 +145,8 @@ pub struct Dialect {
     pub decimal_comma: bool,
     /// How the bytes encode text.
     pub encoding: Encoding,
-    /// True when the bytes are gzipped.
-    pub gzip: bool,
+    /// How the bytes are packed.
+    pub packing: Option<&'static Packing>,
     /// True when the first line that is not a comment names the columns.
     pub header: bool,
     /// True when a line of units follows the header.
