@@ -85,7 +85,9 @@ fn run(path: &Path, accepted: Accepted, (target, inputs): (&Target, &[&Path])) -
         summary.notes.splice(0..0, notes.iter().cloned());
     }
     if let Some(then) = opened.session.result.as_ref().filter(|_| outputs.json || !outputs.quiet) {
-        let now = match summary.clean_sha256.clone() {
+        // Columns of flags are no part of the cleaned file that the session recorded.
+        let cleaned = summary.clean_sha256.clone().filter(|_| outputs.flag_columns.is_none());
+        let now = match cleaned {
             Some(clean_sha256) => Recorded {
                 flagged: analysed.flagged(),
                 clean_sha256,

@@ -44,6 +44,7 @@ pub(super) fn targets(
     let several = inputs.len() > 1;
     let named = [
         outputs.output.as_deref(),
+        outputs.changed.as_deref(),
         outputs.flags.as_deref(),
         outputs.diagnostics.as_deref(),
         outputs.report.as_deref(),
@@ -84,6 +85,7 @@ pub(super) fn targets(
         };
         let session = place(session, format!("{stem}.toml"))?;
         let outputs = OutputArgs {
+            changed: place(outputs.changed.as_deref(), format!("{stem}.changed.csv"))?,
             flags: place(outputs.flags.as_deref(), format!("{stem}.flags.csv"))?,
             diagnostics: place(outputs.diagnostics.as_deref(), format!("{stem}.diagnostics.csv"))?,
             report: place(outputs.report.as_deref(), format!("{stem}.html"))?,

@@ -73,7 +73,7 @@ pub use outputs::{Outputs, take_unfinished_away};
 pub use packing::{PACKINGS, Packing, unpacked_name};
 pub use preview::Preview;
 pub use printable::{is_hidden, is_shown, printable, printable_json, printable_lines};
-pub use rewrite::{CellChange, Changes, NewRow, rewrite};
+pub use rewrite::{CellChange, Changes, NewRow, cell_text, rewrite};
 pub use rows::for_each_row;
 pub use samples::Samples;
 pub use spool::{DASH, Spool};
@@ -84,7 +84,7 @@ pub use text::hex;
 pub use time::{DateOrder, Part, Pattern, Zero, Zone};
 pub use told::{TimeUnit, Worded};
 pub use wanted::Wanted;
-pub use widen::{NewColumn, widen};
+pub use widen::{NewColumn, rewrite_beside, widen};
 pub use wildpoint_core::series::{Series, lost_samples};
 
 /// Where the bytes of a record come from.
@@ -178,6 +178,14 @@ pub struct RowsAt {
     pub(crate) repeats: Vec<Vec<u8>>,
     /// What comments begin with, besides `#`, `%` and `//`.
     pub(crate) mark: Option<tokens::Mark>,
+}
+
+impl RowsAt {
+    /// True where a line names the columns.
+    #[must_use]
+    pub fn names_columns(&self) -> bool {
+        self.header.is_some()
+    }
 }
 
 /// What stands between two cells.
