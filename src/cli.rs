@@ -8,7 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::error::{Error, Result};
 use crate::method::shared::MAX_GAP;
 use crate::repair;
-use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
+use crate::session::{DEFAULT_METHOD, Preset, SCHEMES, Scheme, Setup, method_of_id};
 use crate::track::{DASH, Delimiter, Encoding, LoadOptions, Pattern, Rules, TimeUnit, Worded};
 
 mod experiments;
@@ -90,7 +90,7 @@ pub enum Command {
     /// Detect and repair wild points of one file or many.
     ///
     /// With several files the outputs are folders (`-o DIR/`, `--flags DIR/`, ...): the cleaned file keeps its name,
-    /// the others are NAME.flags.csv, NAME.diagnostics.csv, NAME.html and NAME.toml. A file that fails does not stop the
+    /// the others are NAME.changed.csv, NAME.flags.csv, NAME.diagnostics.csv, NAME.html and NAME.toml. A file that fails does not stop the
     /// others; the exit status is 2 then.
     Clean {
         /// The records.
@@ -120,7 +120,7 @@ pub enum Command {
         #[arg(required = true, value_name = "SESSION")]
         sessions: Vec<PathBuf>,
         /// Compare with the result that each session recorded; write nothing. Exit status 1 when one differs.
-        #[arg(long, conflicts_with_all = ["output", "flags", "diagnostics", "report"])]
+        #[arg(long, conflicts_with_all = ["output", "flag_columns", "changed", "flags", "diagnostics", "report"])]
         check: bool,
         /// Go on although the data are not those of the session.
         #[arg(long)]
@@ -274,6 +274,18 @@ fn worded<T: Worded>() -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(words).try_map(|word| T::of_word(&word).ok_or("not one of the words"))
 }
 
+/// One of the schemes of flags.
+fn scheme() -> impl TypedValueParser<Value = &'static Scheme> {
+    PossibleValuesParser::new(SCHEMES.iter().map(|scheme| scheme.id))
+        .try_map(|id| Scheme::of(&id).ok_or("not one of the schemes"))
+}
+
+fn scheme_help() -> String {
+    let schemes: Vec<String> = SCHEMES.iter().map(|scheme| format!("{} ({})", scheme.id, scheme.about)).collect();
+    let what = "Add columns of flags at the right of the cleaned file, COLUMN_flag for each judged column";
+    format!("{what}: {}", schemes.join("; "))
+}
+
 /// How dates with the year last are meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum DateOrder {
@@ -331,6 +343,12 @@ pub struct OutputArgs {
     /// Write the cleaned file: the input again, only repaired and removed cells differ.
     #[arg(short, long, value_name = "CLEANED")]
     pub output: Option<PathBuf>,
+    /// Columns of flags in the cleaned file.
+    #[arg(long, value_name = "SCHEME", requires = "output", value_parser = scheme(), help = scheme_help())]
+    pub flag_columns: Option<&'static Scheme>,
+    /// Write the changed cells alone: row, time, channel, old and new text, verdict, and who flagged it (CSV).
+    #[arg(long, value_name = "CHANGED")]
+    pub changed: Option<PathBuf>,
     /// Write the audit table: every flag with its evidence (CSV).
     #[arg(long, value_name = "FLAGS")]
     pub flags: Option<PathBuf>,
@@ -370,7 +388,8 @@ impl OutputArgs {
     }
 
     fn on_standard_output(&self, session: Option<&Path>) -> usize {
-        let named = [&self.output, &self.flags, &self.diagnostics, &self.report].map(|path| path.as_deref());
+        let named =
+            [&self.output, &self.changed, &self.flags, &self.diagnostics, &self.report].map(|path| path.as_deref());
         named.into_iter().chain([session]).flatten().filter(|path| *path == Path::new(DASH)).count()
     }
 }

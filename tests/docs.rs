@@ -48,6 +48,7 @@ fn frame_methods_and_keys_of_the_readme_are_those_of_the_program() {
     let frame = frame().expect("the built-in record can be judged");
     let mut new = with_part(&old, "frame", &format!("```text\n{}\n```\n", frame.trim_end()));
     new = with_part(&new, "methods", &wildpoint::batch::methods_table());
+    new = with_part(&new, "flags", &wildpoint::session::schemes_table());
     new = with_part(&new, "keys", &wildpoint::tui::keys::markdown());
     if std::env::var_os("WILDPOINT_UPDATE").is_some() {
         std::fs::write(path(), &new).expect("the README can be written");

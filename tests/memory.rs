@@ -10,6 +10,51 @@ use std::io::Write as _;
 
 use program::Folder;
 
+/// Rows of which each packs to next to nothing, and a head before them: the first part of a bomb, and one that repeats.
+fn parts() -> [Vec<u8>; 2] {
+    [b"t,x\n0,1\n1,2\n2,1\n".to_vec(), "3,1\n".repeat(1 << 18).into_bytes()]
+}
+
+/// The parts packed by `pack`, the second of them `times` times.
+fn joined(pack: impl Fn(&[u8]) -> Vec<u8>, times: usize) -> Vec<u8> {
+    let [first, rest] = parts().map(|part| pack(&part));
+    [first, rest.repeat(times)].concat()
+}
+
+/// The same text as the one file of a zip archive.
+fn zipped(times: usize) -> Vec<u8> {
+    let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    archive.start_file("bomb.csv", zip::write::SimpleFileOptions::default()).unwrap();
+    let [first, rest] = parts();
+    archive.write_all(&first).unwrap();
+    (0..times).for_each(|_| archive.write_all(&rest).unwrap());
+    archive.finish().unwrap().into_inner()
+}
+
+#[test]
+fn whatever_packs_a_text_is_held_to_the_memory() {
+    let zstd = |text: &[u8]| ruzstd::encoding::compress_to_vec(text, ruzstd::encoding::CompressionLevel::Fastest);
+    let xz = |text: &[u8]| {
+        let mut packer = lzma_rust2::XzWriter::new(Vec::new(), lzma_rust2::XzOptions::with_preset(0)).unwrap();
+        packer.write_all(text).unwrap();
+        packer.finish().unwrap()
+    };
+    let bzip2 = |text: &[u8]| {
+        let mut packer = bzip2::write::BzEncoder::new(Vec::new(), bzip2::Compression::fast());
+        packer.write_all(text).unwrap();
+        packer.finish().unwrap()
+    };
+    for (name, packed) in
+        [("zstd", joined(zstd, 32)), ("xz", joined(xz, 32)), ("bzip2", joined(bzip2, 32)), ("zip", zipped(32))]
+    {
+        assert!(packed.len() < 400_000, "{name}: {}", packed.len());
+        let folder = Folder::with(&[("bomb", &packed)]);
+        refused(&folder, "inspect bomb --memory 20M");
+        let ran = folder.run("inspect bomb --memory 1G");
+        assert!(ran.status == 0 && ran.out.contains(name), "{name}: {}{}", ran.out, ran.err);
+    }
+}
+
 /// Packs `rows` rows of which each packs to next to nothing.
 fn bomb(rows: usize) -> Vec<u8> {
     let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());

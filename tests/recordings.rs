@@ -226,7 +226,7 @@ fn originals_of_records_are_read_and_written_again() {
     for track in [ranges, drive] {
         let mut again = Vec::new();
         rewrite(&track, &Changes::default(), &mut again).unwrap();
-        assert!(again == std::fs::read(track.source.file().unwrap()).unwrap());
+        assert!(again == std::fs::read(track.source.path().unwrap()).unwrap());
     }
 }
 

@@ -175,7 +175,7 @@ proptest! {
             prop_assert_eq!(track.time.seconds.len(), track.rows);
             let usable: Vec<f64> = track.time.seconds.iter().copied().filter(|s| !s.is_nan()).collect();
             prop_assert!(usable.windows(2).all(|w| w[0] < w[1]));
-            if !track.dialect.gzip {
+            if track.dialect.packing.is_none() {
                 let mut again = Vec::new();
                 rewrite(&track, &Changes::default(), &mut again).unwrap();
                 prop_assert_eq!(again, bytes);

@@ -10,9 +10,11 @@ use super::{Ending, set_threads, tell};
 use crate::cli::{OutputArgs, Shared};
 use crate::error::{Error, Result};
 use crate::report::{Summary, diagnostics, flags, report};
-use crate::session::{Analysed, Plan, Session, Setup, document, write_cleaned};
+use crate::session::{
+    Analysed, FlagColumn, Plan, Session, Setup, changed, document, flag_columns, write_cleaned, write_flagged,
+};
 use crate::stop::Stop;
-use crate::track::{Outputs, Source, Track, load};
+use crate::track::{Outputs, Source, Track, load, printable};
 
 pub(super) fn run(
     files: &[PathBuf],
@@ -79,6 +81,13 @@ fn any<'a>(track: &Track, names: impl IntoIterator<Item = &'a String>, plan: &Pl
     track.channel(&plan.channel).is_some_and(|c| names.into_iter().any(|name| track.means(name, c)))
 }
 
+/// What the columns of flags are called, where no line of the file can say it.
+fn nameless(track: &Track, flags: &[FlagColumn]) -> Option<String> {
+    let names: Vec<String> = flags.iter().map(|flag| printable(&flag.name)).collect();
+    let words = || format!("no line names the columns; the last are {}", names.join(", "));
+    (!track.dialect.rows.names_columns()).then(words)
+}
+
 /// Prepares the outputs that were asked for.
 pub(super) fn stage(
     files: &mut Outputs,
@@ -92,10 +101,20 @@ pub(super) fn stage(
         let changes = analysed.changes(track);
         let mut sha256 = None;
         files.stage(path, |w| {
-            sha256 = Some(write_cleaned(track, &changes, w)?);
+            sha256 = Some(match outputs.flag_columns {
+                None => write_cleaned(track, &changes, w)?,
+                Some(scheme) => {
+                    let flags = flag_columns(track, analysed);
+                    summary.notes.extend(nameless(track, &flags));
+                    write_flagged(track, (&changes, &flags), scheme, w)?
+                }
+            });
             Ok(())
         })?;
         summary.clean_sha256 = sha256;
+    }
+    if let Some(path) = &outputs.changed {
+        files.stage(path, |w| changed(track, session, analysed, w))?;
     }
     if let Some(path) = &outputs.flags {
         files.stage(path, |w| flags(track, session, analysed, w))?;

@@ -10,7 +10,8 @@ use crate::cli::InjectArgs;
 use crate::error::{Error, Result};
 use crate::experiment::{Injection, inject};
 use crate::track::{
-    CellChange, Cells, Channel, DASH, NewColumn, Outputs, Series, Source, Track, for_each_row, load, printable, widen,
+    CellChange, Cells, Channel, DASH, NewColumn, NewRow, Outputs, Series, Source, Track, for_each_row, load, printable,
+    widen,
 };
 
 /// What was done, for programs.
@@ -48,8 +49,11 @@ pub(super) fn run(args: &InjectArgs, out: &mut dyn Write) -> Result<Ending> {
     let raw_cell =
         |_: usize, cells: &Cells<'_>| String::from_utf8_lossy(cells.raw(channel.column).trim_ascii()).into_owned();
     let truth_cell = |row: usize, _: &Cells<'_>| u8::from(wild[row] || was_wild(row)).to_string();
-    let columns =
-        [NewColumn { name: raw.clone(), cell: &raw_cell }, NewColumn { name: truth.clone(), cell: &truth_cell }];
+    let no_row = |_: &NewRow| String::new();
+    let columns = [
+        NewColumn { name: raw.clone(), cell: &raw_cell, new_row: &no_row },
+        NewColumn { name: truth.clone(), cell: &truth_cell, new_row: &no_row },
+    ];
     let inputs: [&Path; 1] = [&args.file];
     let mut files = Outputs::new(args.force, &inputs).or_standard_output();
     files.stage(&args.output, |w| widen(&track, &changes, &columns, w))?;

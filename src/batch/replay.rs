@@ -12,7 +12,7 @@ use crate::report::Summary;
 use crate::session::flags::flags_sha256;
 use crate::session::{Accepted, Analysed, Appended, Grown, Recorded, check, open, read};
 use crate::stop::Stop;
-use crate::track::{Outputs, printable};
+use crate::track::{Outputs, printable, unpacked_name};
 
 pub(super) fn run_all(
     sessions: &[PathBuf],
@@ -51,11 +51,12 @@ pub(super) fn run_all(
 fn cleaned_name(session: &Path) -> String {
     let stem = session.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let record = record_of(session).map(|path| file_name(&path));
-    let ending = record.as_deref().and_then(|name| {
-        let (rest, packed) = name.strip_suffix(".gz").map_or((name, ""), |rest| (rest, ".gz"));
-        rest.rsplit_once('.').map(|(_, ending)| format!(".{ending}{packed}"))
+    let ending = record.as_deref().map(|name| {
+        let (rest, packing) = unpacked_name(name);
+        let ending = rest.rsplit_once('.').map(|(_, ending)| format!(".{ending}")).unwrap_or_default();
+        ending + packing.map_or("", |packing| packing.ending)
     });
-    stem + ending.as_deref().unwrap_or(".csv")
+    stem + ending.as_deref().filter(|ending| !ending.is_empty()).unwrap_or(".csv")
 }
 
 /// The record of a session. One that cannot be read is told as an error when it is run.
@@ -84,7 +85,9 @@ fn run(path: &Path, accepted: Accepted, (target, inputs): (&Target, &[&Path])) -
         summary.notes.splice(0..0, notes.iter().cloned());
     }
     if let Some(then) = opened.session.result.as_ref().filter(|_| outputs.json || !outputs.quiet) {
-        let now = match summary.clean_sha256.clone() {
+        // Columns of flags are no part of the cleaned file that the session recorded.
+        let cleaned = summary.clean_sha256.clone().filter(|_| outputs.flag_columns.is_none());
+        let now = match cleaned {
             Some(clean_sha256) => Recorded {
                 flagged: analysed.flagged(),
                 clean_sha256,

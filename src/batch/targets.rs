@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::OutputArgs;
 use crate::error::{Error, Result};
 use crate::report::ReportForm;
+use crate::track::unpacked_name;
 
 /// Where the outputs of one input go.
 #[derive(Debug, Clone)]
@@ -43,6 +44,7 @@ pub(super) fn targets(
     let several = inputs.len() > 1;
     let named = [
         outputs.output.as_deref(),
+        outputs.changed.as_deref(),
         outputs.flags.as_deref(),
         outputs.diagnostics.as_deref(),
         outputs.report.as_deref(),
@@ -83,6 +85,7 @@ pub(super) fn targets(
         };
         let session = place(session, format!("{stem}.toml"))?;
         let outputs = OutputArgs {
+            changed: place(outputs.changed.as_deref(), format!("{stem}.changed.csv"))?,
             flags: place(outputs.flags.as_deref(), format!("{stem}.flags.csv"))?,
             diagnostics: place(outputs.diagnostics.as_deref(), format!("{stem}.diagnostics.csv"))?,
             report: place(outputs.report.as_deref(), format!("{stem}.html"))?,
@@ -106,9 +109,9 @@ fn is_folder(path: &Path, several: bool) -> bool {
     ends_as_one || (several && path.is_dir())
 }
 
-/// The name without its ending, and without `.gz` before that.
+/// The name without its ending, and without that of packed files after it.
 fn stem(name: &str) -> &str {
-    let name = name.strip_suffix(".gz").unwrap_or(name);
+    let (name, _) = unpacked_name(name);
     name.rsplit_once('.').map_or(name, |(stem, _)| if stem.is_empty() { name } else { stem })
 }
 

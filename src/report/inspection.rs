@@ -313,7 +313,7 @@ pub fn layout(track: &Track) -> String {
         Encoding::Latin1 => "Windows-1252",
     };
     if let Some(view) = &d.view {
-        let packed = if d.gzip { ", gzip" } else { "" };
+        let packed = d.packing.map_or(String::new(), |packing| format!(", {}", packing.name));
         return format!("records of {}, {encoding}{packed}", view.format.name);
     }
     let mut words = vec![format!("cells between {delimiter}"), encoding.to_owned()];
@@ -324,10 +324,11 @@ pub fn layout(track: &Track) -> String {
         ));
     }
     words.push(if d.header { "header" } else { "no header" }.to_owned());
-    for (yes, word) in [(d.units_row, "units row"), (d.decimal_comma, "decimal comma"), (d.gzip, "gzip")] {
+    for (yes, word) in [(d.units_row, "units row"), (d.decimal_comma, "decimal comma")] {
         if yes {
             words.push(word.to_owned());
         }
     }
+    words.extend(d.packing.map(|packing| packing.name.to_owned()));
     words.join(", ")
 }

@@ -166,7 +166,7 @@ pub(crate) fn made_of(seconds: Vec<f64>, channels: [(&str, Vec<f64>); 2]) -> Tra
             quote: None,
             decimal_comma: false,
             encoding: Encoding::Utf8 { bom: false },
-            gzip: false,
+            packing: None,
             header: true,
             units_row: false,
             missing: Vec::new(),

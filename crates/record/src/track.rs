@@ -30,6 +30,7 @@ mod odd;
 mod options;
 mod order;
 mod outputs;
+mod packing;
 mod preview;
 mod printable;
 mod quick;
@@ -70,9 +71,10 @@ pub use options::{LoadOptions, Rules};
 #[cfg(any(test, feature = "faults"))]
 pub use outputs::faults;
 pub use outputs::{Outputs, take_unfinished_away};
+pub use packing::{PACKINGS, Packing, unpacked_name};
 pub use preview::Preview;
 pub use printable::{is_hidden, is_shown, printable, printable_json, printable_lines};
-pub use rewrite::{CellChange, Changes, NewRow, rewrite};
+pub use rewrite::{CellChange, Changes, NewRow, cell_text, rewrite};
 pub use rows::for_each_row;
 pub use samples::Samples;
 pub use shape::refused;
@@ -84,7 +86,7 @@ pub use text::hex;
 pub use time::{DateOrder, Part, Pattern, Zero, Zone};
 pub use told::{TimeUnit, Worded};
 pub use wanted::Wanted;
-pub use widen::{NewColumn, widen};
+pub use widen::{NewColumn, rewrite_beside, widen};
 pub use wildpoint_core::series::{Series, lost_samples};
 
 /// Where the bytes of a record come from.
@@ -145,8 +147,8 @@ pub struct Dialect {
     pub decimal_comma: bool,
     /// How the bytes encode text.
     pub encoding: Encoding,
-    /// True when the bytes are gzipped.
-    pub gzip: bool,
+    /// How the bytes are packed.
+    pub packing: Option<&'static Packing>,
     /// True when the first line that is not a comment names the columns.
     pub header: bool,
     /// True when a line of units follows the header.
@@ -191,6 +193,14 @@ pub struct RowsAt {
     pub(crate) mark: Option<tokens::Mark>,
     /// In a table that a format makes of a text: the lines of the text where its first rows begin.
     pub(crate) made_of: Vec<u64>,
+}
+
+impl RowsAt {
+    /// True where a line names the columns.
+    #[must_use]
+    pub fn names_columns(&self) -> bool {
+        self.header.is_some()
+    }
 }
 
 /// What stands between two cells.

@@ -12,7 +12,7 @@ use super::{dialog, prompt, queue};
 use crate::error::{Error, Result, on_one_line};
 use crate::plot::Drawn;
 use crate::session::folder_of;
-use crate::track::Source;
+use crate::track::{Source, unpacked_name};
 
 pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
     Some(match action {
@@ -59,7 +59,7 @@ fn stem(source: &Source) -> String {
         Source::BuiltIn { name, .. } => name.rsplit(':').next().unwrap_or(name).to_owned(),
         Source::Input(_) => source.name(),
     };
-    let name = name.strip_suffix(".gz").unwrap_or(&name);
+    let (name, _) = unpacked_name(&name);
     Path::new(name).file_stem().map_or_else(|| name.to_owned(), |s| s.to_string_lossy().into_owned())
 }
 

@@ -190,7 +190,7 @@ fn load_covered(
         Some(_) => None,
         None => {
             let track = load(Extent::All)?;
-            if track.sha256 == data.sha256 || track.dialect.gzip {
+            if track.sha256 == data.sha256 || track.dialect.packing.is_some() {
                 return Ok((track, None));
             }
             match covered(&data.source, &data.sha256, None)? {

@@ -40,9 +40,13 @@ impl Walk<'_> {
 
     /// The position of the sample of `row`; rows must be asked for in ascending order.
     pub fn position(&mut self, row: usize) -> Option<usize> {
-        (self.next < self.series.len() && self.series.row(self.next) == row).then(|| {
+        let last = self.series.len().checked_sub(1)?;
+        // Where the newest row stands first, the samples go backwards through the file.
+        let backwards = self.series.row(0) > self.series.row(last);
+        let position = if backwards { last.checked_sub(self.next)? } else { self.next };
+        (position <= last && self.series.row(position) == row).then(|| {
             self.next += 1;
-            self.next - 1
+            position
         })
     }
 

@@ -1,15 +1,18 @@
 //! A text read piece by piece, cut at line ends, so that memory never holds the whole of it.
 
+use std::fmt;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
 
-use flate2::read::MultiGzDecoder;
 use memchr::{memchr, memrchr};
 use sha2::{Digest, Sha256};
 
+use super::packing::{Packing, Stream, Unpackable};
 use super::text::hex;
 use super::{Extent, Wanted};
+use crate::error::{Error, Result as Outcome};
 use crate::memory::{Full, Share};
 
 /// Why a text cannot be read piece by piece.
@@ -36,8 +39,30 @@ pub(crate) enum Supply<'a> {
     Bytes(&'a [u8]),
     /// A file as it is.
     Plain(Hashed),
-    /// A gzipped file.
-    Gzip(Box<MultiGzDecoder<Hashed>>),
+    /// A packed file.
+    Packed(Unpacked),
+}
+
+/// The text of a packed file.
+pub(crate) struct Unpacked {
+    packing: &'static Packing,
+    text: Stream<'static>,
+    file: Arc<Mutex<Hashed>>,
+}
+
+impl fmt::Debug for Unpacked {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Unpacked").field("packing", &self.packing).finish_non_exhaustive()
+    }
+}
+
+/// What unpacks a file reads it through this.
+struct Shared(Arc<Mutex<Hashed>>);
+
+impl Read for Shared {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).read(buffer)
+    }
 }
 
 /// A file whose bytes are hashed as they pass.
@@ -62,45 +87,62 @@ impl Read for Supply<'_> {
         match self {
             Self::Bytes(bytes) => bytes.read(buffer),
             Self::Plain(file) => file.read(buffer),
-            Self::Gzip(file) => file.read(buffer),
+            Self::Packed(file) => file.text.read(buffer),
         }
     }
 }
 
 impl Supply<'static> {
-    /// The text of the file at `path`, of so much of it, unpacked if it is gzipped, and about how many bytes it has.
-    pub(crate) fn open(path: &Path, extent: Extent) -> io::Result<(Self, u64)> {
-        let mut file = File::open(path)?;
-        let length = file.metadata()?.len().min(extent.most());
-        let mut magic = [0; 2];
-        let gzip = file.read(&mut magic)? == 2 && magic == [0x1f, 0x8b];
-        io::Seek::rewind(&mut file)?;
+    /// The text of the file at `path`, of so much of it, unpacked if it is packed, and about how many bytes it has.
+    ///
+    /// # Errors
+    /// [`Error::Io`] when it cannot be opened, [`Error::Input`] when it cannot be unpacked.
+    pub(crate) fn open(path: &Path, extent: Extent) -> Outcome<(Self, u64)> {
+        let unreadable = || Error::io("read", path);
+        let mut file = File::open(path).map_err(unreadable())?;
+        let length = file.metadata().map_err(unreadable())?.len().min(extent.most());
+        let packing = Packing::of_file(&mut file).map_err(unreadable())?;
         let hashed = Hashed { file: file.take(extent.most()), bytes: 0, hash: Sha256::new() };
+        let Some(packing) = packing else { return Ok((Self::Plain(hashed), length)) };
+        let file = Arc::new(Mutex::new(hashed));
+        let mut directory = File::open(path).map_err(unreadable())?;
+        let unpackable = |e: Unpackable| Error::input(path, e.what, e.help);
+        let text = packing.unpack(&mut directory, Box::new(Shared(Arc::clone(&file)))).map_err(unpackable)?;
         // Decimal numbers pack to a third or a quarter; what is wrong with the guess costs nothing but address space.
-        Ok(if gzip {
-            (Self::Gzip(Box::new(MultiGzDecoder::new(hashed))), length.saturating_mul(4))
-        } else {
-            (Self::Plain(hashed), length)
-        })
+        Ok((Self::Packed(Unpacked { packing, text, file }), length.saturating_mul(4)))
     }
 }
 
 impl Supply<'_> {
-    /// True when the file is gzipped.
-    pub(crate) fn is_gzip(&self) -> bool {
-        matches!(self, Self::Gzip(_))
+    /// How the file is packed.
+    pub(crate) fn packing(&self) -> Option<&'static Packing> {
+        match self {
+            Self::Packed(file) => Some(file.packing),
+            Self::Bytes(_) | Self::Plain(_) => None,
+        }
+    }
+
+    /// How many bytes of the file, as they are stored, have been read.
+    pub(crate) fn bytes_read(&self) -> u64 {
+        match self {
+            Self::Bytes(_) => 0,
+            Self::Plain(file) => file.bytes,
+            Self::Packed(file) => file.file.lock().unwrap_or_else(PoisonError::into_inner).bytes,
+        }
     }
 
     /// SHA-256 of the bytes as they are stored, of all of them, and how many they are: what has not been read yet is
     /// read for it.
     pub(crate) fn sha256(self) -> io::Result<(String, u64)> {
-        let mut hashed = match self {
-            Self::Bytes(bytes) => return Ok((hex(&Sha256::digest(bytes)), bytes.len() as u64)),
-            Self::Plain(file) => file,
-            Self::Gzip(file) => file.into_inner(),
+        let finished = |hashed: &mut Hashed| {
+            io::copy(hashed, &mut io::sink())?;
+            Ok((hex(&hashed.hash.clone().finalize()), hashed.bytes))
         };
-        io::copy(&mut hashed, &mut io::sink())?;
-        Ok((hex(&hashed.hash.finalize()), hashed.bytes))
+        match self {
+            Self::Bytes(bytes) => Ok((hex(&Sha256::digest(bytes)), bytes.len() as u64)),
+            Self::Plain(mut file) => finished(&mut file),
+            Self::Packed(file) => finished(&mut file.file.lock().unwrap_or_else(PoisonError::into_inner)),
+        }
     }
 }
 
@@ -283,10 +325,10 @@ mod tests {
         let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
         packer.write_all(b"1,2\n3,4\n").unwrap();
         let packed = packer.finish().unwrap();
-        for (bytes, gzip) in [(&b"1,2\n3,4\n"[..], false), (&packed, true)] {
+        for (bytes, packing) in [(&b"1,2\n3,4\n"[..], None), (&packed, Some("gzip"))] {
             std::fs::write(&path, bytes).unwrap();
             let (supply, _) = Supply::open(&path, Extent::All).unwrap();
-            assert_eq!(supply.is_gzip(), gzip);
+            assert_eq!(supply.packing().map(|p| p.name), packing);
             let mut feed = Feed::new(supply, Check::Utf8);
             assert_eq!(waves(&mut feed, 2).unwrap().concat(), b"1,2\n3,4\n");
             let expected = (super::super::text::sha256(bytes, Wanted::always()), bytes.len() as u64);

@@ -2,9 +2,8 @@
 
 use std::io::Read;
 
-use flate2::read::MultiGzDecoder;
-
-use super::{RowsAt, Source};
+use super::feed::Supply;
+use super::{Extent, RowsAt, Source};
 
 /// What a line of a file is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,14 +87,9 @@ fn beginning(source: &Source) -> Option<Vec<u8>> {
             if !path.is_file() {
                 return None;
             }
-            std::fs::File::open(path).ok()?.take(MOST).read_to_end(&mut bytes).ok()?;
+            // Of what is broken, the lines before the fault are shown.
+            let _ = Supply::open(path, Extent::All).ok()?.0.take(MOST).read_to_end(&mut bytes);
         }
-    }
-    if bytes.starts_with(&[0x1f, 0x8b]) {
-        let mut text = Vec::new();
-        // The part of a packed file ends somewhere.
-        let _ = MultiGzDecoder::new(bytes.as_slice()).take(MOST).read_to_end(&mut text);
-        bytes = text;
     }
     memchr::memchr(0, &bytes).is_none().then_some(bytes)
 }

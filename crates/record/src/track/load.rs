@@ -10,6 +10,7 @@ use super::head::{Head, open_quote};
 use super::mend::{About, Mended};
 use super::odd::Oddity;
 use super::order::{Moments, Ordered, Rows, order, sample_numbers};
+use super::packing::Packing;
 use super::roles::{Roles, assign, release};
 use super::shape::{refuse_binaries, refuse_long_form, refuse_other_formats};
 use super::streamed::streamed;
@@ -97,7 +98,7 @@ pub(super) struct Understood {
     timing: Option<Timing>,
     roles: Roles,
     encoding: Encoding,
-    gzip: bool,
+    packing: Option<&'static Packing>,
     path: PathBuf,
     rules: Rules,
     /// What the user told, completed by the format.
@@ -151,10 +152,10 @@ impl Understood {
         let by_sample = options.time.as_deref() == Some("sample") && !head.names.iter().any(|n| n == "sample");
         let timing = if by_sample { None } else { choose(&head, options, path)? };
         let roles = assign(&head, timing.as_ref(), options)?;
-        let (encoding, gzip) = (text.encoding, text.gzip);
+        let (encoding, packing) = (text.encoding, text.packing);
         let rules = options.rules;
         let path = path.to_path_buf();
-        Ok(Self { head, timing, roles, encoding, gzip, path, rules, options: completed, viewed, made_of })
+        Ok(Self { head, timing, roles, encoding, packing, path, rules, options: completed, viewed, made_of })
     }
 
     /// Parses the rows of a feed that begins with the first of them and has about so many bytes; gives the feed of
@@ -343,7 +344,7 @@ impl Understood {
             quote: head.layout.quote,
             decimal_comma: head.reading.decimal_comma,
             encoding: self.encoding,
-            gzip: self.gzip,
+            packing: self.packing,
             header: head.header,
             units_row: head.units_at.is_some(),
             missing: options.missing.clone(),

@@ -6,10 +6,9 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use flate2::{Compression, GzBuilder};
 use tempfile::NamedTempFile;
 
-use super::DASH;
+use super::{DASH, unpacked_name};
 use crate::error::{Error, Result};
 use faults::{Disk, point};
 use identity::{FileId, Protected};
@@ -64,7 +63,7 @@ impl Outputs {
         Self { dash: true, ..self }
     }
 
-    /// Writes the content of the file `path` through `write`, packed where its name ends with `.gz`. The file itself
+    /// Writes the content of the file `path` through `write`, packed where its name ends like that of a packed file. The file itself
     /// appears with [`Outputs::commit`].
     ///
     /// # Errors
@@ -91,15 +90,15 @@ impl Outputs {
             let permitted = point().and_then(|()| file.as_file().set_permissions(existing.permissions()));
             permitted.map_err(Error::io("write", path))?;
         }
-        let gzipped = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gz"));
+        let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         let mut buffer = BufWriter::with_capacity(1 << 20, Disk(file.as_file_mut()));
-        if gzipped {
-            // No time stamp: the same content makes the same file.
-            let mut packed = GzBuilder::new().mtime(0).write(&mut buffer, Compression::default());
-            write(&mut packed)?;
-            packed.finish().map_err(Error::io("write", path))?;
-        } else {
-            write(&mut buffer)?;
+        match unpacked_name(&name) {
+            (name, Some(packing)) => {
+                let mut packed = packing.pack(&mut buffer, name).map_err(Error::io("write", path))?;
+                write(&mut packed)?;
+                packed.finish().map_err(Error::io("write", path))?;
+            }
+            (_, None) => write(&mut buffer)?,
         }
         buffer.flush().map_err(Error::io("write", path))?;
         drop(buffer);

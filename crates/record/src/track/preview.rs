@@ -1,14 +1,10 @@
 //! The first part of a file, loaded: what a picker shows before the whole is read.
 
-use std::cell::Cell;
-use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::Read;
 use std::path::Path;
-use std::rc::Rc;
 
-use flate2::read::MultiGzDecoder;
-
-use super::{LoadOptions, Source, Track, Wanted, for_each_row, load_while};
+use super::feed::Supply;
+use super::{Extent, LoadOptions, Source, Track, Wanted, for_each_row, load_while};
 use crate::error::{Error, Result};
 
 /// What the loader makes of the first part of a file.
@@ -41,8 +37,8 @@ impl Preview {
         if !about.is_file() {
             return Err(Error::input(path, "this is no ordinary file", "name a file with a record"));
         }
-        let file = File::open(path).map_err(Error::io("read", path))?;
-        let (mut bytes, share) = beginning(file, about.len(), most).map_err(Error::io("read", path))?;
+        let (supply, _) = Supply::open(path, Extent::All)?;
+        let (mut bytes, share) = beginning(supply, about.len(), most).map_err(Error::io("read", path))?;
         if share < 1.0 {
             whole_lines(&mut bytes);
         }
@@ -98,37 +94,15 @@ fn renamed(e: Error, path: &Path) -> Error {
     }
 }
 
-/// A reader that counts what it gives.
-struct Counting<R> {
-    inner: R,
-    count: Rc<Cell<u64>>,
-}
-
-impl<R: Read> Read for Counting<R> {
-    fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
-        let n = self.inner.read(into)?;
-        self.count.set(self.count.get() + n as u64);
-        Ok(n)
-    }
-}
-
-/// The first `most` bytes, unpacked where they are packed, and their share of the file.
+/// The first `most` bytes of text, and their share of the file.
 #[expect(clippy::cast_precision_loss, reason = "a share")]
-fn beginning(file: File, size: u64, most: u64) -> std::io::Result<(Vec<u8>, f64)> {
-    let count = Rc::new(Cell::new(0));
-    let mut reader = BufReader::new(Counting { inner: file, count: Rc::clone(&count) });
-    let gzip = std::io::BufRead::fill_buf(&mut reader)?.starts_with(&[0x1f, 0x8b]);
+fn beginning(mut supply: Supply<'_>, size: u64, most: u64) -> std::io::Result<(Vec<u8>, f64)> {
     let mut bytes = Vec::new();
-    if !gzip {
-        reader.take(most + 1).read_to_end(&mut bytes)?;
-        let whole = bytes.len() as u64 <= most;
-        bytes.truncate(usize::try_from(most).unwrap_or(usize::MAX));
-        return Ok((bytes, if whole { 1.0 } else { (most as f64 / size.max(1) as f64).min(0.999) }));
-    }
-    MultiGzDecoder::new(reader).take(most + 1).read_to_end(&mut bytes)?;
+    (&mut supply).take(most + 1).read_to_end(&mut bytes)?;
     let whole = bytes.len() as u64 <= most;
     bytes.truncate(usize::try_from(most).unwrap_or(usize::MAX));
-    Ok((bytes, if whole { 1.0 } else { (count.get() as f64 / size.max(1) as f64).min(0.999) }))
+    let read = if supply.packing().is_some() { supply.bytes_read() } else { most };
+    Ok((bytes, if whole { 1.0 } else { (read as f64 / size.max(1) as f64).min(0.999) }))
 }
 
 /// Cuts what follows the last whole line.

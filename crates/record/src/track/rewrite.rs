@@ -2,10 +2,13 @@
 
 use std::io::Write;
 
+use super::cells::Cells;
 use super::number::Reading;
 use super::rows::{text_of, unchanged, walk};
+use super::style::Style;
 use super::text::{Text, decoded, path_of};
 use super::tokens::{Layout, Record, Span, inner};
+use super::widen::{Beside, NewColumn};
 use super::{Delimiter, Encoding, Track};
 use crate::error::{Error, Result};
 
@@ -44,23 +47,77 @@ pub struct NewRow {
 pub(super) const NO_VALUE: &str = "NaN";
 
 /// Writes the input of `track` again with `changes`: same columns, rows, order, quotes, padding, line ends, comments,
-/// byte order mark and encoding (unpacked, if it is gzipped). A row too short for a changed cell is filled up to it.
+/// byte order mark and encoding (unpacked, if it is packed). A row too short for a changed cell is filled up to it.
 /// A new row looks like the row it follows, with the time in the file's own form.
 ///
 /// # Errors
 /// [`Error::Input`] when the source is no longer the one that was loaded; [`Error::Usage`] when a change is for a row
 /// that is not there or out of order; [`Error::Io`] when `out` fails.
 pub fn rewrite(track: &Track, changes: &Changes, out: &mut dyn Write) -> Result<()> {
+    rewrite_as(track, (changes, Form::of(track)), &[], out)
+}
+
+/// How the numbers of changed cells are written.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Form<'a> {
+    /// For each column, how its numbers are written; none where they are written as shortly as they can be.
+    styles: &'a [Option<Style>],
+    /// True where cells keep their width.
+    fixed_width: bool,
+}
+
+impl<'a> Form<'a> {
+    /// Like the other cells of their columns.
+    pub(super) fn of(track: &'a Track) -> Self {
+        Self { styles: &track.dialect.styles, fixed_width: track.dialect.fixed_width }
+    }
+
+    /// To the last bit.
+    pub(super) fn exact() -> Self {
+        Self { styles: &[], fixed_width: false }
+    }
+}
+
+/// The text of the cell that takes the place of `old` in [`rewrite`]: `value` as its column writes numbers.
+#[must_use]
+pub fn cell_text(track: &Track, column: usize, old: &str, value: Option<f64>) -> String {
+    let reading = Reading::new(track.dialect.decimal_comma, &[]);
+    number(Form::of(track), &reading, (column, old), value).unwrap_or_default()
+}
+
+/// A value as the column writes it, in place of the cell `old`; none for no value.
+fn number(form: Form<'_>, reading: &Reading, (column, old): (usize, &str), value: Option<f64>) -> Option<String> {
+    let value = value.filter(|v| v.is_finite())?;
+    Some(match form.styles.get(column) {
+        Some(Some(style)) => style.written(value, old, reading),
+        _ => reading.written(value).into_owned(),
+    })
+}
+
+/// [`rewrite`] with numbers in this form and `columns` added at the right.
+pub(super) fn rewrite_as(
+    track: &Track,
+    (changes, form): (&Changes, Form<'_>),
+    columns: &[NewColumn<'_>],
+    out: &mut dyn Write,
+) -> Result<()> {
     let stored = unchanged(track)?;
     let text = text_of(track, &stored)?;
     let mut pen = Pen { out, encoding: text.encoding, track };
     pen.raw(text.mark())?;
     if let Some(view) = &text.view {
+        if !columns.is_empty() {
+            let help = "write the flags as a table of their own with --flags";
+            return Err(Error::usage("a file of records has no place for columns beside its values", help));
+        }
         return super::view::rewrite(track, &text, view, changes, &mut pen);
     }
+    let layout = track.dialect.layout(text.body());
     let mut editor = Editor {
         track,
-        layout: track.dialect.layout(text.body()),
+        form,
+        beside: (!columns.is_empty()).then(|| Beside { track, body: text.body(), layout, columns }),
+        layout,
         encoding: text.encoding,
         reading: Reading::new(track.dialect.decimal_comma, &[]),
         cells: &changes.cells,
@@ -69,7 +126,7 @@ pub fn rewrite(track: &Track, changes: &Changes, out: &mut dyn Write) -> Result<
         line_end: b"\n",
     };
     let written = editor.run(&text, &mut pen)?;
-    pen.text(&text.body()[written..])?;
+    editor.between(&text.body()[written..], &mut pen)?;
     let left = editor.cells.first().map(|c| c.row).or(editor.rows.first().map(|r| r.after_row));
     match left {
         None => Ok(()),
@@ -106,6 +163,9 @@ impl Pen<'_> {
 /// Walks over the rows with the changes that are still to be made.
 struct Editor<'a> {
     track: &'a Track,
+    form: Form<'a>,
+    /// The columns that are added, where there are any.
+    beside: Option<Beside<'a>>,
     layout: Layout,
     encoding: Encoding,
     reading: Reading,
@@ -121,20 +181,24 @@ impl<'a> Editor<'a> {
     fn run(&mut self, text: &'a Text<'_>, pen: &mut Pen<'_>) -> Result<usize> {
         let body = text.body();
         let mut written = 0;
-        if self.cells.is_empty() && self.rows.is_empty() {
+        let every_row = self.beside.is_some();
+        if self.cells.is_empty() && self.rows.is_empty() && !every_row {
             return Ok(0);
+        }
+        if let Some(beside) = &self.beside {
+            written = beside.head(pen)?;
         }
         walk(self.track, text, |row, record, splitter| {
             let mine = self.cells.iter().take_while(|c| c.row as usize == row).count();
-            if mine > 0 {
+            if mine > 0 || every_row {
                 let (now, later) = self.cells.split_at(mine);
                 self.cells = later;
-                pen.text(&body[written..record.start])?;
-                pen.text(&self.changed(record, splitter.cells(record), now))?;
+                self.between(&body[written..record.start], pen)?;
+                pen.text(&self.changed(row, record, splitter.cells(record), now)?)?;
                 written = record.start + record.bytes.len();
             }
             if self.rows.is_empty() {
-                return Ok(!self.cells.is_empty());
+                return Ok(every_row || !self.cells.is_empty());
             }
             let spans = splitter.cells(record);
             self.note_form(row, record, spans);
@@ -153,9 +217,17 @@ impl<'a> Editor<'a> {
                     pen.text(&[before, &line, after].concat())?;
                 }
             }
-            Ok(!(self.cells.is_empty() && self.rows.is_empty()))
+            Ok(every_row || !(self.cells.is_empty() && self.rows.is_empty()))
         })?;
         Ok(written)
+    }
+
+    /// What stands between two rows, or before the first.
+    fn between(&self, lines: &[u8], pen: &mut Pen<'_>) -> Result<()> {
+        match &self.beside {
+            Some(beside) => beside.between(lines, pen),
+            None => pen.text(lines),
+        }
     }
 
     /// Remembers how times and line ends look.
@@ -178,16 +250,11 @@ impl<'a> Editor<'a> {
         decoded(&raw[inner(raw, self.layout.quote)], self.encoding).into_owned()
     }
 
-    /// A value as the column writes it, in place of the cell `old`.
     fn number(&self, column: usize, old: &str, value: Option<f64>) -> Option<String> {
-        let value = value.filter(|v| v.is_finite())?;
-        Some(match self.track.dialect.styles.get(column) {
-            Some(Some(style)) => style.written(value, old, &self.reading),
-            _ => self.reading.written(value).into_owned(),
-        })
+        number(self.form, &self.reading, (column, old), value)
     }
 
-    fn changed(&self, record: &Record<'_>, spans: &[Span], changes: &[CellChange]) -> Vec<u8> {
+    fn changed(&self, row: usize, record: &Record<'_>, spans: &[Span], changes: &[CellChange]) -> Result<Vec<u8>> {
         let mut edits: Vec<(usize, String)> = Vec::with_capacity(changes.len());
         for change in changes {
             match self.number(change.column, &self.cell(record, spans, change.column), change.value) {
@@ -203,7 +270,17 @@ impl<'a> Editor<'a> {
         if emptied && let Some((_, text)) = edits.first_mut() {
             NO_VALUE.clone_into(text);
         }
-        patched(record.bytes, spans, (self.layout, self.track.dialect.fixed_width), &edits)
+        if let Some(beside) = &self.beside {
+            let cells = Cells {
+                record: record.bytes,
+                spans,
+                quote: self.track.dialect.quote,
+                encoding: self.encoding,
+                line: record.line,
+            };
+            edits.extend(beside.cells(row, &cells)?);
+        }
+        Ok(patched(record.bytes, spans, (self.layout, self.form.fixed_width), &edits))
     }
 
     fn nothing(&self) -> String {
@@ -213,7 +290,10 @@ impl<'a> Editor<'a> {
     /// A row in the form of `record`.
     fn new_row(&self, record: &Record<'_>, spans: &[Span], new: &NewRow) -> Vec<u8> {
         let time = &self.track.time;
-        let width = spans.len().max(new.cells.last().map_or(0, |(c, _)| c + 1));
+        let mut width = spans.len().max(new.cells.last().map_or(0, |(c, _)| c + 1));
+        if self.beside.is_some() {
+            width = width.min(self.track.columns.len());
+        }
         let text = |column: usize| {
             if let Some(place) = time.part_columns.iter().position(|c| *c == column) {
                 return time.write_part(new.seconds, place, &self.cell(record, spans, column));
@@ -230,8 +310,9 @@ impl<'a> Editor<'a> {
             let value = new.cells.iter().find(|(c, _)| *c == column).map(|(_, v)| *v);
             self.number(column, "", value).unwrap_or_else(|| self.nothing())
         };
-        let edits: Vec<(usize, String)> = (0..width).map(|c| (c, text(c))).collect();
-        patched(record.bytes, spans, (self.layout, self.track.dialect.fixed_width), &edits)
+        let mut edits: Vec<(usize, String)> = (0..width).map(|c| (c, text(c))).collect();
+        edits.extend(self.beside.iter().flat_map(|beside| beside.new_row(new)));
+        patched(record.bytes, spans, (self.layout, self.form.fixed_width), &edits)
     }
 }
 

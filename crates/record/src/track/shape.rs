@@ -27,7 +27,6 @@ pub(crate) fn refuse_other_formats(body: &[u8], path: &Path) -> Result<()> {
         ),
         [b'<', ..] => refuse("markup (XML or HTML), not a table", "export the record as CSV"),
         [b'{', ..] => refuse("JSON, not a table", "export the record as CSV, one row for each time"),
-        [b'P', b'K', 3, 4, ..] => refuse("a zip archive (or a spreadsheet)", "unpack it, or export the sheet as CSV"),
         _ if start.starts_with(b"ply") || start.starts_with(b"solid ") => {
             refuse("a mesh, not a table", "export the record as CSV")
         }
@@ -44,13 +43,7 @@ struct Binary {
 }
 
 /// What analysts have besides text.
-const BINARIES: [Binary; 22] = [
-    Binary {
-        at: 0,
-        begins: b"PK\x03\x04",
-        name: "a zip archive or a spreadsheet (xlsx, ods)",
-        help: "unpack it, or export the sheet as CSV (soffice --convert-to csv FILE)",
-    },
+const BINARIES: [Binary; 19] = [
     Binary {
         at: 0,
         begins: b"\xd0\xcf\x11\xe0",
@@ -141,9 +134,12 @@ const BINARIES: [Binary; 22] = [
         name: "messages of a u-blox receiver (UBX)",
         help: "convert them first: convbin or pyubx2 (gnssdump FILE)",
     },
-    Binary { at: 0, begins: b"\x28\xb5\x2f\xfd", name: "a file packed by zstd", help: "unpack it: zstd -d FILE" },
-    Binary { at: 0, begins: b"\xfd7zXZ\0", name: "a file packed by xz", help: "unpack it: unxz -k FILE" },
-    Binary { at: 0, begins: b"BZh", name: "a file packed by bzip2", help: "unpack it: bunzip2 -k FILE" },
+    Binary {
+        at: 257,
+        begins: b"ustar",
+        name: "a tar archive",
+        help: "unpack it (tar -xf FILE) and name one of the files in it",
+    },
     Binary { at: 0, begins: b"7z\xbc\xaf\x27\x1c", name: "a 7z archive", help: "unpack it: 7z x FILE" },
     Binary {
         at: 0,

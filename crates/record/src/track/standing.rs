@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
-use flate2::read::MultiGzDecoder;
 use sha2::{Digest, Sha256};
 
+use super::packing::Stream;
 use super::rows::Splitter;
 use super::text::hex;
 use super::tokens::{RecordKind, Records, is_empty};
@@ -70,7 +70,12 @@ impl Standing {
         if hash_of(path, track.bytes)? != track.sha256 {
             return Ok(Self::Lost(Lost::Replaced));
         }
-        if length == track.bytes { Ok(Self::Same) } else { Ok(Self::Grown { rows: rows_after(path, track)? }) }
+        match track.dialect.packing {
+            _ if length == track.bytes => Ok(Self::Same),
+            // Nothing can be appended to an archive: what follows belongs to another one.
+            Some(packing) if !packing.joins => Ok(Self::Lost(Lost::Replaced)),
+            _ => Ok(Self::Grown { rows: rows_after(path, track)? }),
+        }
     }
 
     /// What happened, in words that follow on the name of the record.
@@ -145,12 +150,15 @@ const LONGEST_LINE: u64 = 1 << 20;
 fn rows_after(path: &Path, track: &Track) -> io::Result<usize> {
     let mut file = File::open(path)?;
     let mut before = [b'\n'];
-    if let Some(last) = track.bytes.checked_sub(1).filter(|_| !track.dialect.gzip) {
+    if let Some(last) = track.bytes.checked_sub(1).filter(|_| track.dialect.packing.is_none()) {
         file.seek(SeekFrom::Start(last))?;
         file.read_exact(&mut before)?;
     }
     file.seek(SeekFrom::Start(track.bytes))?;
-    let mut tail: Box<dyn Read> = if track.dialect.gzip { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };
+    let mut tail: Stream<'_> = match track.dialect.packing {
+        Some(packing) => packing.unpack(&mut io::empty(), Box::new(file)).map_err(|e| io::Error::other(e.what))?,
+        None => Box::new(file),
+    };
     let (mut rows, mut open, mut first) = (0, Vec::new(), before != [b'\n'] && before != [b'\r'] && before != [0]);
     loop {
         let mut piece = std::mem::take(&mut open);

@@ -58,7 +58,7 @@ fn checked(
 ) -> Result<Track, Failure> {
     let (understood, [mark, before]) = understood((path, extent), check, options)?;
     let rows = || {
-        let (supply, bytes) = Supply::open(path, extent)?;
+        let (supply, bytes) = Supply::open(path, extent).map_err(|_| Unfit::Unreadable)?;
         let mut feed = Feed::new(supply, check).while_wanted(wanted);
         feed.peek(mark + before)?;
         feed.skip(mark + before);
@@ -67,7 +67,7 @@ fn checked(
     let (parsed, feed) = understood.parse(rows)?;
     let stored = feed.into_supply().sha256().map_err(|_| UNFIT)?;
     let again = || {
-        let (supply, _) = Supply::open(path, extent).map_err(Error::io("read", path))?;
+        let (supply, _) = Supply::open(path, extent)?;
         let mut feed = Feed::new(supply, check).while_wanted(wanted);
         let unreadable = |_| Error::input(path, "the file changed while it was loaded", "load it again");
         feed.peek(mark).map_err(unreadable)?;
@@ -84,7 +84,7 @@ fn understood(
     options: &LoadOptions,
 ) -> Result<(Understood, [usize; 2]), Failure> {
     let (supply, _) = Supply::open(path, extent).map_err(|_| UNFIT)?;
-    let gzip = supply.is_gzip();
+    let packing = supply.packing();
     let mut feed = Feed::new(supply, check);
     for size in HEADS {
         let part = feed.peek(size).map_err(Failure::Unfit)?;
@@ -97,7 +97,7 @@ fn understood(
         let Some(end) = memrchr(b'\n', part) else { continue };
         let lines = &part[..=end];
         check.of(lines).map_err(Failure::Unfit)?;
-        let text = Text::part(lines, encoding, gzip);
+        let text = Text::part(lines, encoding, packing);
         // A table that is made of the records needs all of them.
         if viewed(text.body(), options).is_some() {
             return Err(UNFIT);

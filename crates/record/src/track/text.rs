@@ -3,14 +3,15 @@
 use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::fs::File;
-use std::io::Read;
+use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use encoding_rs::{UTF_16BE, UTF_16LE, WINDOWS_1252};
-use flate2::read::MultiGzDecoder;
 use memchr::{memchr, memchr_iter};
 use sha2::{Digest, Sha256};
 
+use super::packing::{Packing, Unpackable};
+use super::shape::refuse_binaries;
 use super::view::{View, Want};
 use super::{Encoding, Extent, Format, Source, Wanted};
 use crate::error::{Error, Result};
@@ -29,8 +30,8 @@ pub(crate) struct Text<'a> {
     share: Share,
     /// How the source encodes it.
     pub(crate) encoding: Encoding,
-    /// True when the source is gzipped.
-    pub(crate) gzip: bool,
+    /// How the source is packed.
+    pub(crate) packing: Option<&'static Packing>,
     /// The table that the format of the text makes of it.
     pub(crate) view: Option<Box<View>>,
 }
@@ -113,17 +114,17 @@ pub fn hex(bytes: &[u8]) -> String {
 
 impl<'a> Text<'a> {
     /// The first part of a text, in the encoding that the whole was taken for.
-    pub(crate) fn part(bytes: &'a [u8], encoding: Encoding, gzip: bool) -> Self {
+    pub(crate) fn part(bytes: &'a [u8], encoding: Encoding, packing: Option<&'static Packing>) -> Self {
         let start = if encoding == (Encoding::Utf8 { bom: true }) { 3 } else { 0 };
-        Self { bytes: Cow::Borrowed(bytes), start, share: Share::default(), encoding, gzip, view: None }
+        Self { bytes: Cow::Borrowed(bytes), start, share: Share::default(), encoding, packing, view: None }
     }
 
     /// The text in `stored`, in the `wanted` encoding or in the one its bytes show.
     ///
     /// # Errors
-    /// [`Error::Input`] for a broken gzip stream, for bytes that are not in the wanted encoding, and for NUL bytes.
+    /// [`Error::Input`] for a file that cannot be unpacked, for bytes that are not in the wanted encoding, and for NUL bytes.
     pub(crate) fn of(stored: &'a [u8], path: &Path, wanted: Option<Encoding>) -> Result<Self> {
-        let (bytes, gzip, mut share) = unpacked(stored, path)?;
+        let (bytes, packing, mut share) = unpacked(stored, path)?;
         if let [0xff, 0xfe, ..] | [0xfe, 0xff, ..] = bytes.as_ref() {
             // Three bytes for two at most.
             share.add(bytes.len() as u64 / 2 * 3).map_err(Error::memory(path))?;
@@ -146,7 +147,7 @@ impl<'a> Text<'a> {
             Encoding::Utf8 { bom } => eight_bit(&bytes[start..], bom, wanted, path)?,
             other => other,
         };
-        Ok(Self { bytes, start, share, encoding, gzip, view: None })
+        Ok(Self { bytes, start, share, encoding, packing, view: None })
     }
 
     /// The bytes that hold rows: those of the source, or of the table that its format makes of them.
@@ -201,26 +202,32 @@ fn utf16(big_endian: bool) -> Encoding {
     Encoding::Utf16 { big_endian }
 }
 
-fn unpacked<'a>(stored: &'a [u8], path: &Path) -> Result<(Cow<'a, [u8]>, bool, Share)> {
+/// The text in `stored`, unpacked if it is packed.
+type Opened<'a> = (Cow<'a, [u8]>, Option<&'static Packing>, Share);
+
+fn unpacked<'a>(stored: &'a [u8], path: &Path) -> Result<Opened<'a>> {
     let mut share = Share::default();
-    if !stored.starts_with(&[0x1f, 0x8b]) {
-        return Ok((Cow::Borrowed(stored), false, share));
-    }
+    let Some(packing) = Packing::of(stored) else { return Ok((Cow::Borrowed(stored), None, share)) };
+    let unpackable = |e: Unpackable| Error::input(path, e.what, e.help);
     let mut bytes = Vec::new();
-    let mut packed = MultiGzDecoder::new(stored);
+    let mut packed = packing.unpack(&mut Cursor::new(stored), Box::new(stored)).map_err(unpackable)?;
     loop {
         share.add(PIECE).map_err(Error::memory(path))?;
-        let read = (&mut packed).take(PIECE).read_to_end(&mut bytes).map_err(|e| {
-            Error::input(path, format!("the gzip stream is broken: {e}"), "copy or fetch the file again")
-        })?;
+        let read = (&mut packed).take(PIECE).read_to_end(&mut bytes).map_err(|e| unpackable(packing.broken(&e)))?;
         if bytes.len() as u64 > MOST_UNPACKED {
-            let help = "unpack it (gunzip -k) if that is what it is";
+            let help = format!("unpack it ({} FILE) if that is what it is", packing.tool);
             return Err(Error::input(path, "it unpacks to more than 4 GiB", help));
         }
         if read == 0 {
-            return Ok((Cow::Owned(bytes), true, share));
+            break;
         }
     }
+    if let Some(inner) = Packing::of(&bytes) {
+        let what = format!("it is packed twice: {} in {}", inner.name, packing.name);
+        return Err(Error::input(path, what, format!("unpack it once: {} FILE", packing.tool)));
+    }
+    refuse_binaries(&bytes, path)?;
+    Ok((Cow::Owned(bytes), Some(packing), share))
 }
 
 /// So much is unpacked at a time.

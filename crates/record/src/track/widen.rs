@@ -3,12 +3,10 @@
 use std::io::Write;
 
 use super::cells::Cells;
-use super::number::Reading;
-use super::rewrite::{NO_VALUE, Pen, patched};
-use super::rows::{text_of, unchanged, walk};
-use super::text::{Text, path_of};
+use super::rewrite::{Form, NO_VALUE, NewRow, Pen, patched, rewrite_as};
+use super::text::path_of;
 use super::tokens::{Layout, Span, split};
-use super::{CellChange, Delimiter, Track};
+use super::{CellChange, Changes, Delimiter, Track};
 use crate::error::{Error, Result};
 
 /// A column that the input does not have.
@@ -17,76 +15,112 @@ pub struct NewColumn<'a> {
     pub name: String,
     /// The text of its cell in a data row (from 0), which is handed in with its old cells.
     pub cell: &'a dyn Fn(usize, &Cells<'_>) -> String,
+    /// The text of its cell in a row that the input does not have.
+    pub new_row: &'a dyn Fn(&NewRow) -> String,
 }
 
-/// Writes the input of `track` again with `changes` (sorted by row and column, each with a value) and `columns`
-/// added at the right: in the header and in every data row; a units row and empty lines of data get empty cells.
-/// Everything else stays byte for byte (unpacked, if it is gzipped).
+/// Writes the input of `track` again with `changes` (sorted by row and column, each with a value, which is written to
+/// the last bit) and `columns` added at the right: in the header and in every data row; a units row gets empty cells.
+/// Everything else stays byte for byte (unpacked, if it is packed).
 ///
 /// # Errors
 /// [`Error::Input`] when the source is no longer the one that was loaded, or a row has more cells than there are
 /// columns; [`Error::Io`] when `out` fails.
 pub fn widen(track: &Track, changes: &[CellChange], columns: &[NewColumn<'_>], out: &mut dyn Write) -> Result<()> {
-    let stored = unchanged(track)?;
-    let text = text_of(track, &stored)?;
-    let (body, layout) = (text.body(), track.dialect.layout(text.body()));
-    let mut pen = Pen { out, encoding: text.encoding, track };
-    let reading = Reading::new(track.dialect.decimal_comma, &[]);
-    pen.raw(text.mark())?;
-    let mut written = head(track, &text, layout, columns, &mut pen)?;
-    let mut left = changes;
-    walk(track, &text, |row, record, splitter| {
-        let spans = splitter.cells(record);
-        if spans.len() > track.columns.len() && !record.bytes[spans[track.columns.len()].start as usize..].is_empty() {
+    let changes = Changes { cells: changes.to_vec(), rows: Vec::new() };
+    rewrite_as(track, (&changes, Form::exact()), columns, out)
+}
+
+/// [`rewrite`](super::rewrite()) with `columns` added at the right, as [`widen`] adds them.
+///
+/// # Errors
+/// As [`rewrite`](super::rewrite()) and [`widen`].
+pub fn rewrite_beside(track: &Track, changes: &Changes, columns: &[NewColumn<'_>], out: &mut dyn Write) -> Result<()> {
+    rewrite_as(track, (changes, Form::of(track)), columns, out)
+}
+
+/// The columns that are added to a table.
+pub(super) struct Beside<'a> {
+    pub(super) track: &'a Track,
+    /// The text of the input.
+    pub(super) body: &'a [u8],
+    pub(super) layout: Layout,
+    pub(super) columns: &'a [NewColumn<'a>],
+}
+
+impl Beside<'_> {
+    /// Writes up to the end of the last line before the data that gets new cells; gives how much has been written.
+    pub(super) fn head(&self, pen: &mut Pen<'_>) -> Result<usize> {
+        let body = self.body;
+        let [header, units] = [self.track.dialect.rows.header, self.track.dialect.rows.units];
+        let mut written = 0;
+        for (line, cells) in [(header, self.names()), (units, self.nothing())] {
+            let Some((start, length)) = line else { continue };
+            pen.text(&body[written..start])?;
+            pen.text(&self.longer(&body[start..start + length], cells))?;
+            written = start + length;
+        }
+        Ok(written)
+    }
+
+    /// Writes the lines between two rows: a header that comes again is one that has all names again.
+    pub(super) fn between(&self, lines: &[u8], pen: &mut Pen<'_>) -> Result<()> {
+        let rows = &self.track.dialect.rows;
+        if rows.repeats.is_empty() {
+            return pen.text(lines);
+        }
+        let names = rows.header.map(|(start, length)| self.body[start..start + length].trim_ascii());
+        for line in lines.split_inclusive(|b| *b == self.layout.line_end) {
+            let bare = line.trim_ascii_end();
+            let trimmed = bare.trim_ascii_start();
+            if !rows.repeats.iter().any(|repeat| repeat == trimmed) {
+                pen.text(line)?;
+                continue;
+            }
+            let cells = if names == Some(trimmed) { self.names() } else { self.nothing() };
+            pen.text(&self.longer(bare, cells))?;
+            pen.text(&line[bare.len()..])?;
+        }
+        Ok(())
+    }
+
+    /// The new cells of a row.
+    pub(super) fn cells(&self, row: usize, cells: &Cells<'_>) -> Result<Vec<(usize, String)>> {
+        let columns = self.track.columns.len();
+        if cells.len() > columns && !cells.record[cells.spans[columns].start as usize..].is_empty() {
             return Err(Error::Input {
-                path: path_of(&track.source),
-                line: Some(record.line),
-                what: format!("{} cells under {} columns: nothing can be added", spans.len(), track.columns.len()),
+                path: path_of(&self.track.source),
+                line: Some(cells.line),
+                what: format!("{} cells under {columns} columns: nothing can be added", cells.len()),
                 help: "mend the row first".into(),
             });
         }
-        let mine = left.iter().take_while(|c| c.row as usize == row).count();
-        let (now, later) = left.split_at(mine);
-        left = later;
-        let cells = Cells {
-            record: record.bytes,
-            spans,
-            quote: track.dialect.quote,
-            encoding: text.encoding,
-            line: record.line,
-        };
-        let mut edits: Vec<(usize, String)> =
-            now.iter().filter_map(|c| Some((c.column, reading.written(c.value?).into_owned()))).collect();
-        for (i, column) in columns.iter().enumerate() {
-            edits.push((track.columns.len() + i, filled((column.cell)(row, &cells), layout)));
-        }
-        pen.text(&body[written..record.start])?;
-        pen.text(&patched(record.bytes, spans, (layout, false), &edits))?;
-        written = record.start + record.bytes.len();
-        Ok(true)
-    })?;
-    pen.text(&body[written..])
-}
-
-/// Writes up to the end of the last line before the data that gets new cells; gives how much has been written.
-fn head(track: &Track, text: &Text<'_>, layout: Layout, columns: &[NewColumn<'_>], pen: &mut Pen<'_>) -> Result<usize> {
-    let names: Vec<String> = columns.iter().map(|c| quoted(&c.name, track, layout)).collect();
-    let nothing: Vec<String> = columns.iter().map(|_| filled(String::new(), layout)).collect();
-    let [header, units] = [track.dialect.rows.header, track.dialect.rows.units];
-    let mut written = 0;
-    for (line, cells) in [(header, names), (units, nothing)] {
-        let Some((start, length)) = line else { continue };
-        let body = text.body();
-        let record = &body[start..start + length];
-        let mut spans: Vec<Span> = Vec::new();
-        split(record, layout, &mut spans);
-        let edits: Vec<(usize, String)> =
-            cells.into_iter().enumerate().map(|(i, cell)| (track.columns.len() + i, cell)).collect();
-        pen.text(&body[written..start])?;
-        pen.text(&patched(record, &spans, (layout, false), &edits))?;
-        written = start + length;
+        Ok(self.placed(self.columns.iter().map(|column| (column.cell)(row, cells))))
     }
-    Ok(written)
+
+    /// The new cells of a row that the input does not have.
+    pub(super) fn new_row(&self, row: &NewRow) -> Vec<(usize, String)> {
+        self.placed(self.columns.iter().map(|column| (column.new_row)(row)))
+    }
+
+    fn placed(&self, texts: impl Iterator<Item = String>) -> Vec<(usize, String)> {
+        texts.enumerate().map(|(i, text)| (self.track.columns.len() + i, filled(text, self.layout))).collect()
+    }
+
+    fn names(&self) -> Vec<(usize, String)> {
+        self.placed(self.columns.iter().map(|c| quoted(&c.name, self.track, self.layout)))
+    }
+
+    fn nothing(&self) -> Vec<(usize, String)> {
+        self.placed(self.columns.iter().map(|_| String::new()))
+    }
+
+    /// A line with cells added.
+    fn longer(&self, line: &[u8], cells: Vec<(usize, String)>) -> Vec<u8> {
+        let mut spans: Vec<Span> = Vec::new();
+        split(line, self.layout, &mut spans);
+        patched(line, &spans, (self.layout, false), &cells)
+    }
 }
 
 /// A cell that is a cell: between blanks an empty one would be none.
@@ -120,7 +154,11 @@ mod tests {
         let track = load(&source, &LoadOptions::default())?;
         let copy = |_: usize, cells: &Cells<'_>| cells.text(1).into_owned();
         let number = |row: usize, _: &Cells<'_>| row.to_string();
-        let columns = [NewColumn { name: "raw, x".into(), cell: &copy }, NewColumn { name: "n".into(), cell: &number }];
+        let new_row = &|_: &NewRow| String::new();
+        let columns = [
+            NewColumn { name: "raw, x".into(), cell: &copy, new_row },
+            NewColumn { name: "n".into(), cell: &number, new_row },
+        ];
         let changes: Vec<CellChange> =
             change.map(|(row, column, value)| CellChange { row, column, value: Some(value) }).into_iter().collect();
         let mut out = Vec::new();
