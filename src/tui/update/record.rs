@@ -7,7 +7,8 @@ use super::super::words::counted;
 use super::dialog;
 use crate::track::Standing;
 
-/// Takes in what a look at the file has shown. It is said once; the title goes on showing it.
+/// Takes in what a look at the file has shown. It is said once, after what was said before: an answer to a key stays
+/// readable. The title goes on showing it.
 pub(super) fn stands(model: &mut Model, standing: Standing) {
     let before = std::mem::replace(&mut model.standing, standing);
     match (before, standing) {
@@ -15,15 +16,13 @@ pub(super) fn stands(model: &mut Model, standing: Standing) {
         (_, Standing::Grown { rows }) => {
             let were = if rows == 1 { "was" } else { "were" };
             let what = format!("{} {were} added to the record", counted(rows, "row"));
-            model.say(Tone::Warning, format!("{what} · :reload takes them in, every decision stays"));
+            model.say_too(Tone::Warning, &format!("{what} · :reload takes them in, every decision stays"));
         }
-        (Standing::Lost(_), Standing::Same) => model.say(Tone::Done, "the record is back as it was"),
+        (Standing::Lost(_), Standing::Same) => model.say_too(Tone::Done, "the record is back as it was"),
         (_, Standing::Lost(_)) if before != standing => {
             let what = format!("the record {}", standing.words());
-            model.say(
-                Tone::Warning,
-                format!("{what} · :w still saves the decisions, :decisions writes them as a table"),
-            );
+            let ways = ":w still saves the decisions, :decisions writes them as a table";
+            model.say_too(Tone::Warning, &format!("{what} · {ways}"));
         }
         _ => {}
     }
