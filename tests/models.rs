@@ -268,9 +268,10 @@ fn the_matched_repair_wants_both_directions_to_agree() {
 #[test]
 fn predictors_repair_with_the_expected_value() {
     let record = spiked();
-    for id in ["five-point", "alpha-beta-gamma", "adaptive", "matched"] {
-        let judged = record.judged(id, &[]);
-        assert_eq!(record.repaired(id, &[], &[50, 300]), [judged.expected[50], judged.expected[300]], "{id}");
+    let printed = [("repair_rule", "expected")];
+    for (id, keys) in [("five-point", &[][..]), ("alpha-beta-gamma", &[]), ("adaptive", &[]), ("matched", &printed)] {
+        let judged = record.judged(id, keys);
+        assert_eq!(record.repaired(id, keys, &[50, 300]), [judged.expected[50], judged.expected[300]], "{id}");
     }
 }
 

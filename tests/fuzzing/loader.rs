@@ -49,6 +49,7 @@ fn changed(track: &wildpoint::track::Track, options: &LoadOptions) {
     let cells = vec![CellChange { row: row as u32, column: channel.column, value }];
     let mut out = Vec::new();
     rewrite(track, &Changes { cells, rows: Vec::new() }, &mut out).unwrap();
+    let again_bytes = out.clone();
     let source = Source::BuiltIn { name: "fuzz-changed.csv", bytes: out.into() };
     // With so few rows one cell can change what the file is taken for; as it was understood it reads back.
     // A column may itself be called `#2`, and a name goes before a number.
@@ -68,7 +69,7 @@ fn changed(track: &wildpoint::track::Track, options: &LoadOptions) {
     }
     for (i, (a, b)) in again.channels[0].values.iter().zip(&channel.values).enumerate() {
         if i == row {
-            assert!(*a == -2.0 || track.dialect.missing.iter().any(|m| m.contains('2')), "row {i}: {a}");
+            assert!(*a == -2.0 || track.dialect.missing.iter().any(|m| m.contains('2')), "row {i}: {a} of {:?}\n{:?}", track.dialect, String::from_utf8_lossy(&again_bytes));
         } else {
             assert!(a == b || (a.is_nan() && b.is_nan()), "row {i}: {a} was {b}");
         }

@@ -219,18 +219,36 @@ impl Settings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::{Method, hampel::Hampel};
+    use crate::param::{SAMPLES, Step, always};
+
+    const WINDOW: Param = Param {
+        key: "window",
+        help: "samples",
+        unit: SAMPLES,
+        kind: Kind::Whole { min: 3, max: 1001, step: 2 },
+        default: Value::Whole(21),
+        paper: None,
+        matters: always,
+    };
+    const K: Param = Param {
+        key: "k",
+        unit: "scales",
+        kind: Kind::Real { min: 0.5, max: 100.0, step: Step::Add(0.1) },
+        default: Value::Real(3.0),
+        ..WINDOW
+    };
+    static PARAMS: &[Param] = &[WINDOW, K, Param { key: "max_gap", kind: Kind::WholeOrOff { min: 0, max: 100 }, ..WINDOW }];
 
     #[test]
     fn a_duration_is_counted_in_samples() {
-        let mut settings = Settings::defaults(Hampel.about().params);
-        settings.set_text("hampel", "window", "30s").unwrap();
-        settings.set_text("hampel", "max_gap", "2min").unwrap();
+        let mut settings = Settings::defaults(PARAMS);
+        settings.set_text("x", "window", "30s").unwrap();
+        settings.set_text("x", "max_gap", "2min").unwrap();
         let at = settings.at_interval(2.0);
         assert_eq!((at.whole("window"), at.whole_or_off("max_gap")), (15, Some(60)));
         assert_eq!(settings.at_interval(1e6).whole("window"), 3, "not below the range");
         assert_eq!(settings.whole("window"), 21, "the default while no interval is known");
         assert!(settings == at && settings.has_durations() && settings.get("window").unwrap().to_string() == "30s");
-        assert!(settings.set_text("hampel", "k", "3s").is_err(), "no number of samples");
+        assert!(settings.set_text("x", "k", "3s").is_err(), "no number of samples");
     }
 }
