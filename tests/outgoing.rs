@@ -250,7 +250,7 @@ fn packed_outputs_are_named_after_their_packing() {
     for ending in ["gz", "zst", "xz", "bz2", "zip"] {
         folder.done(&format!("clean in.csv {JUDGED} -o out.csv.{ending}"));
         // Cleaned again without a change, it is the same text.
-        folder.done(&format!("clean out.csv.{ending} --method hampel --set k=1e9 -o again_{ending}.csv"));
+        folder.done(&format!("clean out.csv.{ending} {JUDGED} -o again_{ending}.csv"));
         assert_eq!(folder.text(&format!("again_{ending}.csv")), folder.text("plain.csv"), "{ending}");
     }
     std::fs::rename(folder.path("out.csv.zip"), folder.path("other.zip")).unwrap();

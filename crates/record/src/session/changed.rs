@@ -7,12 +7,13 @@ use super::table::{time_text, write_row};
 use super::{Analysed, Place, Session};
 use crate::error::{Error, Result};
 use crate::method::Verdict;
+use crate::repair::FILL_GAPS;
 use crate::track::{Cells, NewRow, Track, cell_text, for_each_row, inert};
 
 /// The columns, in order.
 const HEADER: [&str; 7] = ["row", "time", "channel", "old", "new", "verdict", "by"];
 /// Who fills what is missing: the setting of the repair.
-const FILLED_BY: &str = "fill_gaps";
+const FILLED_BY: &str = FILL_GAPS.key;
 /// Who decides.
 const ANALYST: &str = "analyst";
 

@@ -9,7 +9,9 @@ use super::scheme::{Quality, Scheme};
 use super::{Analysed, Outcome, Place};
 use crate::error::Result;
 use crate::method::Verdict;
-use crate::track::{Cells, Changes, Channel, NewColumn, NewRow, Samples, TimeAxis, Track, hex, rewrite_beside};
+use crate::track::{
+    Cell, Cells, Changes, Channel, NewColumn, NewRow, Reading, Samples, TimeAxis, Track, hex, rewrite_beside,
+};
 
 /// The flags of one column of the file.
 #[derive(Debug)]
@@ -18,8 +20,19 @@ pub struct FlagColumn {
     pub name: String,
     /// Index of the judged column in [`Track::columns`].
     pub column: usize,
-    /// What is known about the cell of each row.
-    pub qualities: Vec<Quality>,
+    /// What is known about the cell of each row; none for a row of a track that was not loaded.
+    qualities: Vec<Option<Quality>>,
+}
+
+impl FlagColumn {
+    /// What is known about the cell of a row.
+    fn quality(&self, row: usize, cells: &Cells<'_>, reading: &Reading) -> Quality {
+        let of_cell = || match reading.cell(cells.text(self.column).trim().as_bytes()) {
+            Cell::Number(_) => Quality::Unchecked,
+            Cell::Missing | Cell::Infinite | Cell::Text => Quality::Missing,
+        };
+        self.qualities.get(row).copied().flatten().unwrap_or_else(of_cell)
+    }
 }
 
 /// A column of flags for each column of the file that is judged.
@@ -33,8 +46,7 @@ pub fn flag_columns(track: &Track, analysed: &Analysed) -> Vec<FlagColumn> {
         let taken: Vec<&str> =
             track.columns.iter().map(|c| c.name.as_str()).chain(columns.iter().map(|c| c.name.as_str())).collect();
         let name = free_name(&track.columns[column].name, &taken);
-        let mut qualities = vec![Quality::Missing; track.rows];
-        // Of several tracks in one table, some may not be judged.
+        let mut qualities = vec![None; track.rows];
         for channel in track.channels.iter().filter(|c| c.column == column) {
             unjudged(channel, &mut qualities);
         }
@@ -58,11 +70,10 @@ fn free_name(column: &str, taken: &[&str]) -> String {
 }
 
 /// The rows of a channel before it is judged.
-fn unjudged(channel: &Channel, qualities: &mut [Quality]) {
+fn unjudged(channel: &Channel, qualities: &mut [Option<Quality>]) {
     let mut mark = |row: usize, value: f64| {
-        if let Some(quality) = qualities.get_mut(row).filter(|_| value.is_finite()) {
-            *quality = Quality::Unchecked;
-        }
+        let quality = if value.is_finite() { Quality::Unchecked } else { Quality::Missing };
+        qualities[row] = Some(quality);
     };
     match &channel.target {
         None => channel.values.iter().enumerate().for_each(|(row, value)| mark(row, *value)),
@@ -70,7 +81,12 @@ fn unjudged(channel: &Channel, qualities: &mut [Quality]) {
     }
 }
 
-fn judged(channel: &Channel, time: &TimeAxis, (samples, outcome): (&Samples, &Outcome), qualities: &mut [Quality]) {
+fn judged(
+    channel: &Channel,
+    time: &TimeAxis,
+    (samples, outcome): (&Samples, &Outcome),
+    qualities: &mut [Option<Quality>],
+) {
     let series = samples.series(channel, time);
     for position in 0..series.len() {
         let quality = match (outcome.verdict(position), outcome.fix(position)) {
@@ -80,11 +96,11 @@ fn judged(channel: &Channel, time: &TimeAxis, (samples, outcome): (&Samples, &Ou
             (Verdict::Normal, _) => Quality::Normal,
             (Verdict::Unchecked | Verdict::Missing, _) => Quality::Unchecked,
         };
-        qualities[series.row(position)] = quality;
+        qualities[series.row(position)] = Some(quality);
     }
     for fill in &outcome.fills {
         if let Place::Cell(row) = fill.place {
-            qualities[row] = Quality::Filled;
+            qualities[row] = Some(Quality::Filled);
         }
     }
 }
@@ -100,10 +116,11 @@ pub fn write_flagged(
     scheme: &Scheme,
     out: &mut dyn Write,
 ) -> Result<String> {
+    let reading = Reading::new(track.dialect.decimal_comma, &track.dialect.missing);
     let cells: Vec<_> = flags
         .iter()
         .map(|flag| {
-            let cell = |row: usize, _: &Cells<'_>| scheme.code(flag.qualities[row]).to_owned();
+            let cell = |row: usize, cells: &Cells<'_>| scheme.code(flag.quality(row, cells, &reading)).to_owned();
             let new_row = |new: &NewRow| {
                 let filled = new.cells.iter().any(|(column, _)| *column == flag.column);
                 scheme.code(if filled { Quality::Filled } else { Quality::Missing }).to_owned()

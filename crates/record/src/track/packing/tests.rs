@@ -177,6 +177,21 @@ fn an_archive_is_of_one_file() {
 }
 
 #[test]
+fn what_of_an_archive_cannot_be_read_is_told() {
+    // `zip -P` of Info-ZIP 3.0, and the module `zipfile` of Python 3 with `ZIP_BZIP2`.
+    let with_a_password = "504b03040a00090000007a787e5de41db67e1c0000001000000005000000612e637376b0acee7d170c5945cac2254ca2\
+         77cc2668e00f2e64f76f8a2c8bc4fe504b0708e41db67e1c00000010000000504b01021e030a00090000007a787e5de41db67e1c000000\
+         10000000050000000000000001000000a48100000000612e637376504b05060000000001000100330000004f0000000000";
+    let by_bzip2 = "504b03042e0000000c0000002100e41db67e340000001000000005000000612e637376425a6839314159265359bc6f983300\
+         0007588000100004780004402000221ea68c8430226f369470003c5dc914e14242f1be60cc504b01022e032e0000000c0000002100e41d\
+         b67e3400000010000000050000000000000000000000800100000000612e637376504b0506000000000100010033000000570000000000";
+    let e = failure(&bytes(with_a_password));
+    assert!(e.contains("with a password: a.csv") && e.contains("unzip"), "{e}");
+    let e = failure(&bytes(by_bzip2));
+    assert!(e.contains("which is not read") && e.contains("unzip"), "{e}");
+}
+
+#[test]
 fn what_is_inside_is_looked_at_too() {
     let gzip = &PACKINGS[0];
     let e = failure(&packed(gzip, &bytes(FIRST[2].1)));
