@@ -109,7 +109,7 @@ impl Opening {
     pub fn model(self, look: Look) -> Model {
         let mut notes = first::notes(&self.track);
         notes.extend(self.notes);
-        let first = first::plan(&self.session);
+        let first = first::plan(&self.session, &self.track);
         let mut model = Model::new(Arc::new(self.track), self.session, self.file, look.theme, look.glyphs);
         model.channels.iter_mut().zip(&self.own).for_each(|(channel, own)| channel.touched = *own);
         model.shown = self.own.iter().position(|own| *own).unwrap_or(first);

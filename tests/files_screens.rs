@@ -445,11 +445,7 @@ fn dialogs_are_drawn_at_any_size_and_in_ascii() {
             lines: Vec::new(),
         });
         (0..10).for_each(|_| drop(ascii.key(KeyCode::Down)));
-        assert!(
-            ascii.frame().contains("> skipped lines"),
-            "the field under the cursor is in sight\n{}",
-            ascii.frame()
-        );
+        assert!(ascii.frame().contains("> skipped lines"), "the field under the cursor is in sight\n{}", ascii.frame());
         frames.push(ascii.frame());
         let mut export = Bench::with(Glyphs::Ascii).size(size);
         export.control('e');

@@ -1,14 +1,36 @@
 //! What of a record is shown first, and what is said of it then.
 
+use wildpoint_core::analysis::Input;
+
 use super::action::Action;
 use super::files;
 use super::model::Model;
-use crate::session::{Session, suggestions};
-use crate::track::{Track, is_id, printable};
+use crate::session::{Detection, Plan, Session, suggestions};
+use crate::stop::Stop;
+use crate::track::{Series, Track, is_id, printable};
 
-/// The plan that is shown first: of the first channel that is not, by its name, an id.
-pub(super) fn plan(session: &Session) -> usize {
-    session.plans.iter().position(|plan| !is_id(&plan.channel)).unwrap_or(0)
+/// Samples that are looked at for the plan that is shown first, of all channels together.
+const LOOKED_AT: usize = 100_000;
+
+/// The plan that is shown first: that of the channel whose wild points stand clearest, by the first samples of each;
+/// without any, of the first channel that is not, by its name, an id.
+pub(super) fn plan(session: &Session, track: &Track) -> usize {
+    let first = session.plans.iter().position(|plan| !is_id(&plan.channel)).unwrap_or(0);
+    let most = LOOKED_AT / session.plans.len().max(1);
+    let clearness = |plan: &Plan| clearness(plan, track, most).unwrap_or(0.0);
+    let clear = session.plans.iter().map(clearness).enumerate().filter(|(_, clear)| *clear > 0.0);
+    // Of equals the first.
+    clear.rev().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(first, |(index, _)| index)
+}
+
+/// How clearly wild points stand out among the first samples of a channel; none where its floor is not from the record.
+fn clearness(plan: &Plan, track: &Track, most: usize) -> Option<f64> {
+    let channel = track.channel(&plan.channel)?;
+    let series = channel.series(&track.time);
+    let n = series.len().min(most);
+    let head = Series::new(series.t.get(..n)?, series.y.get(..n)?);
+    let detection = Detection::of(Input::new(&head, None), &plan.setup, &Stop::never()).ok()?;
+    Some(detection.calibration?.clearness())
 }
 
 /// What a user should know before trusting the record: the loader's notes or, without any, what it could not use.
@@ -66,7 +88,7 @@ mod tests {
         // By the first rules tracks are told, not recognised.
         let first = LoadOptions { rules: crate::track::Rules::First, ..LoadOptions::default() };
         let (track, session) = loaded(text, &first);
-        assert_eq!(session.plans[plan(&session)].channel, "range_m");
+        assert_eq!(session.plans[plan(&session, &track)].channel, "range_m");
         assert_eq!(
             notes(&track),
             ["1 time that goes back (line 5: 1.5)", "`beacon` may tell several tracks apart: :loader, track column",]
@@ -78,9 +100,20 @@ mod tests {
     #[test]
     fn what_could_not_be_read_is_said_and_a_record_without_faults_is_met_in_silence() {
         let (track, session) = loaded("t_s,id\n0,1\n1,2\n2,x\n3,4\n", &LoadOptions::default());
-        assert_eq!(plan(&session), 0, "there is nothing else");
+        assert_eq!(plan(&session, &track), 0, "there is nothing else");
         let said = notes(&track);
         assert!(said[0].starts_with("1 unreadable cell ") && said[1].contains(":loader"), "{said:?}");
         assert!(notes(&loaded("t_s,x\n0,1\n1,2\n2,3\n", &LoadOptions::default()).0).is_empty());
+    }
+
+    #[test]
+    fn the_channel_whose_wild_points_stand_clearest_is_shown_first() {
+        let mut text = String::from("t_s,speed,height\n");
+        for i in 0..300 {
+            let height = if i == 150 { 9000 } else { 1000 + i * 7919 % 11 };
+            text += &format!("{i},{},{height}\n", 50 + i * 104_729 % 7);
+        }
+        let (track, session) = loaded(Box::leak(text.into_boxed_str()), &LoadOptions::default());
+        assert_eq!(session.plans[plan(&session, &track)].channel, "height");
     }
 }

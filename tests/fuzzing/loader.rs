@@ -69,7 +69,12 @@ fn changed(track: &wildpoint::track::Track, options: &LoadOptions) {
     }
     for (i, (a, b)) in again.channels[0].values.iter().zip(&channel.values).enumerate() {
         if i == row {
-            assert!(*a == -2.0 || track.dialect.missing.iter().any(|m| m.contains('2')), "row {i}: {a} of {:?}\n{:?}", track.dialect, String::from_utf8_lossy(&again_bytes));
+            assert!(
+                *a == -2.0 || track.dialect.missing.iter().any(|m| m.contains('2')),
+                "row {i}: {a} of {:?}\n{:?}",
+                track.dialect,
+                String::from_utf8_lossy(&again_bytes)
+            );
         } else {
             assert!(a == b || (a.is_nan() && b.is_nan()), "row {i}: {a} was {b}");
         }

@@ -85,6 +85,16 @@ impl Calibration {
         let mut finite: Vec<f64> = self.limits.iter().copied().filter(|l| l.is_finite()).collect();
         (!finite.is_empty()).then(|| median_in_place(&mut finite))
     }
+
+    /// How clearly the clearest wild point stands out: the largest objection over the limit of its sample. 0 where none
+    /// reaches its limit, and where more than one sample in 20 does, which is no longer a matter of single points.
+    #[must_use]
+    pub fn clearness(&self) -> f64 {
+        let known = self.objections.iter().zip(&self.limits).filter(|(_, limit)| limit.is_finite() && **limit > 0.0);
+        let wild: Vec<f64> = known.map(|(objection, limit)| objection / limit).filter(|ratio| *ratio >= 1.0).collect();
+        let few = wild.len() * 20 <= self.limits.len();
+        if few { wild.into_iter().fold(0.0, f64::max) } else { 0.0 }
+    }
 }
 
 /// Calibrates a channel: a pure function of its times and values, the same on any number of threads.

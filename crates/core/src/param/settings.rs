@@ -237,7 +237,8 @@ mod tests {
         default: Value::Real(3.0),
         ..WINDOW
     };
-    static PARAMS: &[Param] = &[WINDOW, K, Param { key: "max_gap", kind: Kind::WholeOrOff { min: 0, max: 100 }, ..WINDOW }];
+    static PARAMS: &[Param] =
+        &[WINDOW, K, Param { key: "max_gap", kind: Kind::WholeOrOff { min: 0, max: 100 }, ..WINDOW }];
 
     #[test]
     fn a_duration_is_counted_in_samples() {
