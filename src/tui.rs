@@ -17,13 +17,13 @@ use crate::stop::Stop;
 use crate::track::{LoadOptions, Source, Track};
 use advice::Advise;
 use config::Config;
+use effects::{Next, Outside};
 use files::Task;
+use frame_limiter::Pace;
 use input::Normaliser;
+use jobs::Judge;
 use message::{Effect, Message};
 use model::{Model, Tone};
-use office::Judge;
-use outside::{Next, Outside};
-use pace::Pace;
 use plot::Glyphs;
 pub use signals::Ended;
 use signals::{HANG_UP, Signalled};
@@ -32,27 +32,27 @@ use theme::Theme;
 
 pub mod action;
 pub mod advice;
+pub mod chart_data;
 mod clipboard;
 pub mod config;
 pub mod consensus;
+mod effects;
 pub mod files;
 mod find;
-mod first;
+mod frame_limiter;
 mod fuzzy;
-mod hit;
+mod hit_test;
 pub mod input;
+pub mod jobs;
 pub mod journal;
 pub mod keys;
-pub mod known;
 pub mod layout;
 pub mod message;
 pub mod model;
-pub mod office;
-mod outside;
-mod pace;
-pub mod picture;
 pub mod plot;
+pub mod session_guard;
 mod signals;
+mod startup;
 mod terminal;
 pub mod theme;
 pub mod update;
@@ -107,13 +107,13 @@ impl Opening {
     /// The model to start with.
     #[must_use]
     pub fn model(self, look: Look) -> Model {
-        let mut notes = first::notes(&self.track);
+        let mut notes = startup::notes(&self.track);
         notes.extend(self.notes);
-        let first = first::plan(&self.session, &self.track);
+        let first = startup::plan(&self.session, &self.track);
         let mut model = Model::new(Arc::new(self.track), self.session, self.file, look.theme, look.glyphs);
         model.channels.iter_mut().zip(&self.own).for_each(|(channel, own)| channel.touched = *own);
         model.shown = self.own.iter().position(|own| *own).unwrap_or(first);
-        notes.extend(first::prepared(&model));
+        notes.extend(startup::prepared(&model));
         if !notes.is_empty() {
             model.say(Tone::Warning, notes.join(" · "));
         }

@@ -10,9 +10,9 @@ use std::path::PathBuf;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use wildpoint::stop::Stop;
 use wildpoint::tui::files::{FileEntry, FileKind, Listing, News, Request, Task};
+use wildpoint::tui::jobs::Judge;
 use wildpoint::tui::message::{Effect, Message};
 use wildpoint::tui::model::{Dialog, Overlay};
-use wildpoint::tui::office::Judge;
 use wildpoint::tui::update::update;
 
 use workbench::{Bench, UNICODE_DARK};

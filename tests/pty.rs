@@ -5,6 +5,8 @@
 
 #[path = "pty/bytes.rs"]
 mod bytes;
+#[path = "pty/pictures.rs"]
+mod chart_actions;
 #[path = "pty/command_line.rs"]
 mod command_line;
 #[path = "pty/files.rs"]
@@ -18,8 +20,6 @@ mod growing;
 mod journal;
 #[path = "pty/mouse.rs"]
 mod mouse;
-#[path = "pty/pictures.rs"]
-mod pictures;
 mod program;
 #[path = "pty/resize.rs"]
 mod resize;

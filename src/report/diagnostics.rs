@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::method::Verdict;
 use crate::session::table::{cell, time_text, verdict_word, walk, write_row};
 use crate::session::{Analysed, Session};
-use crate::track::{Track, inert};
+use crate::track::{Track, escape_formula};
 
 /// The columns, in order.
 const HEADER: [&str; 8] = ["row", "time", "channel", "raw", "verdict", "expected", "tolerance", "clean"];
@@ -26,7 +26,7 @@ pub fn diagnostics(track: &Track, session: &Session, analysed: &Analysed, out: &
         let fields: [&str; 8] = [
             &(row + 1).to_string(),
             &time_text(track, row, cells),
-            &inert(channel.name),
+            &escape_formula(channel.name),
             &cell(channel.raw(track, row, position)),
             verdict_word(channel.outcome, position),
             &cell(position.and_then(|p| judged.expected().get(p).map(|e| channel.outcome.detection.written(*e)))),

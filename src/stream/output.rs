@@ -8,7 +8,7 @@ use super::judge::Said;
 use super::layout::Sample;
 use crate::cli::FormatArg;
 use crate::error::{Error, Result};
-use crate::track::{inert, number_text};
+use crate::track::{escape_formula, number_text};
 
 /// The columns, in order.
 pub(super) const HEADER: &str = "row,time,value,verdict,expected,tolerance,correction";
@@ -118,7 +118,7 @@ fn line(format: FormatArg, told: &Told<'_>, out: &mut dyn Write) -> Result<()> {
 
 /// A cell that no spreadsheet runs, in quotes where it needs them.
 fn quoted(text: &str) -> String {
-    let text = &*inert(text);
+    let text = &*escape_formula(text);
     if text.contains(['"', ',', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 

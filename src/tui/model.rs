@@ -22,15 +22,15 @@ use crate::track::{Channel, Series, Standing, Track};
 
 mod channel;
 mod dialog;
-mod lower;
 mod overlay;
 mod review;
+mod secondary_chart;
 
 pub use channel::{ChannelState, Pinned, YMode};
 pub use dialog::{Browser, Dialog, ExportForm, ExportRow, LoaderForm, Over, Waiting};
-pub use lower::{Lower, LowerKind, Second};
 pub use overlay::{Merging, Overlay, Picker, PickerKind, Prompt, PromptKind};
 pub use review::{Group, Reviewing, Sort, Unit};
+pub use secondary_chart::{Lower, LowerKind, Second};
 
 /// Everything on the screen comes from here.
 #[derive(Debug)]

@@ -11,6 +11,7 @@ use crate::error::{Error, on_one_line};
 use crate::track::printable;
 
 mod channels;
+mod chart_actions;
 mod checks;
 mod command;
 mod command_line;
@@ -28,7 +29,6 @@ mod navigate;
 pub(super) mod note;
 mod overlay;
 mod palette;
-mod pictures;
 pub(super) mod queue;
 mod record;
 mod recover;
@@ -36,6 +36,7 @@ mod review;
 mod rows;
 pub(in crate::tui) mod tune;
 
+pub(super) use chart_actions::layer_names;
 pub use command::{COMMANDS, Command};
 pub(in crate::tui) use dialog::misread;
 pub use dialog::{FIELDS, Field};
@@ -44,7 +45,6 @@ use history::{commit, set_up};
 pub use jump::FORMS;
 pub use overlay::{Entry, narrowed};
 pub use palette::{Suggestion, chosen, suggestions};
-pub(super) use pictures::layer_names;
 pub(super) use review::mark_at;
 pub(super) use tune::value_text;
 
@@ -141,7 +141,7 @@ const PARTS: [Part; 12] = [
     tune::act,
     navigate::act,
     history::act,
-    pictures::act,
+    chart_actions::act,
     compare::act,
     consensus::act,
     channels::act,

@@ -20,7 +20,6 @@ mod files;
 mod footer;
 mod help;
 mod journal;
-mod lower;
 mod merge;
 pub(super) mod overlay;
 mod palette;
@@ -31,6 +30,7 @@ mod queue;
 mod reasons;
 mod recover;
 mod second;
+mod secondary_chart;
 mod title;
 
 /// What panels say that need a result while there is none: nothing flagged would be an answer.

@@ -11,8 +11,8 @@ use crate::review::Decisions;
 use crate::session::{Detection, Setup};
 use crate::stop::{Stop, Stopped};
 use crate::track::{Samples, Track};
+use crate::tui::jobs::Judge;
 use crate::tui::model::{Knob, Model};
-use crate::tui::office::Judge;
 
 /// What a step changes.
 #[derive(Debug, Clone, PartialEq)]

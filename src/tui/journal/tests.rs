@@ -4,8 +4,8 @@ use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
+use super::super::jobs::Judge;
 use super::super::message::{Effect, Written};
-use super::super::office::Judge;
 use super::super::plot::Glyphs;
 use super::super::theme::Theme;
 use super::super::update::update;

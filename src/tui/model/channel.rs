@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::super::advice::{Advice, Steps};
+use super::super::chart_data::Pictures;
 use super::super::consensus::Consensus;
-use super::super::picture::Pictures;
 use super::super::plot::{Axis, Flags, Layers, View};
 use super::Group;
 use crate::param::Settings;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::super::message::{Effect, OutputKind};
 use super::super::model::{Model, Tone};
 use super::files::default_report;
-use super::{Action, act, checks, command_line, dialog, files, jump, pictures, record, review, show, tune};
+use super::{Action, act, chart_actions, checks, command_line, dialog, files, jump, record, review, show, tune};
 use crate::check::CHECKS;
 use crate::error::nearest;
 use crate::method::METHODS;
@@ -94,8 +94,13 @@ pub static COMMANDS: &[Command] = &[
         }
         other => Err(format!("{}: on or off", printable(other))),
     }),
-    command("y", "kept|all|robust|fixed|LOW HIGH", "choose the vertical range", pictures::y_command),
-    command("layers", "[+-]NAME ...", "show these layers: raw, expected, band, repaired", pictures::layers_command),
+    command("y", "kept|all|robust|fixed|LOW HIGH", "choose the vertical range", chart_actions::y_command),
+    command(
+        "layers",
+        "[+-]NAME ...",
+        "show these layers: raw, expected, band, repaired",
+        chart_actions::layers_command,
+    ),
     command("command-line", "[CLEANED]", "copy the command that does the same without a screen", |m, a| {
         Ok(command_line::show(m, path(a)))
     }),

@@ -5,7 +5,7 @@
 use ratatui::crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::super::action::Action;
-use super::super::hit::{Spot, spot};
+use super::super::hit_test::{Spot, spot};
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Tone};
 use super::super::words::{self, counted};

@@ -6,7 +6,7 @@ use tui_input::{Input, InputRequest};
 use super::super::files::Task;
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
-use super::{dialog, files, journal, jump, note, palette, pictures, recover, set_up, show, tune};
+use super::{chart_actions, dialog, files, journal, jump, note, palette, recover, set_up, show, tune};
 use crate::error::on_one_line;
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
@@ -54,7 +54,7 @@ pub(super) fn entries(model: &Model, kind: PickerKind) -> Vec<Entry> {
             let unit = |plan: usize| printable(&model.track.channels[model.channels[plan].channel].unit);
             let mut all: Vec<Entry> =
                 others.map(|(plan, p)| entry(&p.channel, unit(plan), current == Some(plan))).collect();
-            all.push(entry(pictures::NO_SECOND, "the channel on the screen alone".into(), current.is_none()));
+            all.push(entry(chart_actions::NO_SECOND, "the channel on the screen alone".into(), current.is_none()));
             all
         }
         PickerKind::Channel | PickerKind::Rate => {
@@ -196,7 +196,7 @@ fn chosen(model: &mut Model, kind: PickerKind, id: String) -> Vec<Effect> {
             plan.map(|plan| show(model, plan)).unwrap_or_default()
         }
         PickerKind::Second => {
-            pictures::set_second(model, &id);
+            chart_actions::set_second(model, &id);
             Vec::new()
         }
         PickerKind::Rate => {

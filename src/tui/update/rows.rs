@@ -2,7 +2,7 @@
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::super::hit;
+use super::super::hit_test;
 use super::super::message::Effect;
 use super::super::model::{Dialog, Model, Overlay, PromptKind};
 use super::{dialog, overlay, palette};
@@ -49,7 +49,7 @@ pub(super) fn click(model: &mut Model, cell: (u16, u16)) -> Vec<Effect> {
     let second = model.clicked.take() == Some(cell);
     let Some((at, n)) = rows(model) else { return Vec::new() };
     let at = at.filter(|at| *at < n);
-    let under = hit::choice(model, cell.0, cell.1).filter(|row| *row < n);
+    let under = hit_test::choice(model, cell.0, cell.1).filter(|row| *row < n);
     if at.is_none() || (!second && under != at) {
         let Some(row) = under else { return Vec::new() };
         model.clicked = Some(cell);

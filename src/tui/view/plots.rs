@@ -6,9 +6,9 @@ use ratatui::text::Span as Words;
 use ratatui::widgets::Widget;
 
 use super::super::action::Panel;
+use super::super::chart_data::Picture;
 use super::super::layout::{TraceParts, trace_parts};
 use super::super::model::{Model, YMode};
-use super::super::picture::Picture;
 use super::super::plot::{
     AxisLabels, Columns, Cursor, FlagRail, Layers, Overview, SideMarks, SideRail, TickSteps, TracePlot, View,
 };

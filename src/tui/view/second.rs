@@ -5,8 +5,8 @@ use ratatui::layout::Rect;
 use ratatui::text::Span as Words;
 use ratatui::widgets::Widget;
 
+use super::super::chart_data::Picture;
 use super::super::layout::{SecondParts, second_parts};
-use super::super::picture::Picture;
 use super::super::plot::{Cursor, FlagRail, TracePlot};
 use super::plots::Plots;
 use super::{rule, rule_glyph, thousands};

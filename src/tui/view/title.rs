@@ -5,8 +5,8 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
+use super::super::chart_data::Picture;
 use super::super::model::Model;
-use super::super::picture::Picture;
 use super::super::plot::FlagState;
 use super::{clear, fit, thousands};
 use crate::track::{Standing, printable};

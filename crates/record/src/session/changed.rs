@@ -8,7 +8,7 @@ use super::{Analysed, Place, Session};
 use crate::error::{Error, Result};
 use crate::method::Verdict;
 use crate::repair::FILL_GAPS;
-use crate::track::{Cells, NewRow, Track, cell_text, for_each_row, inert};
+use crate::track::{Cells, NewRow, Track, cell_text, escape_formula, for_each_row};
 
 /// The columns, in order.
 const HEADER: [&str; 7] = ["row", "time", "channel", "old", "new", "verdict", "by"];
@@ -52,8 +52,8 @@ pub fn changed(track: &Track, session: &Session, analysed: &Analysed, out: &mut 
             let old = texts.text(change.column);
             let new = cell_text(track, change.column, &old, change.value);
             let (number, time) = ((row + 1).to_string(), time_text(track, row, texts));
-            let (old, new) = (inert(&old), inert(&new));
-            let name = inert(reason.channel);
+            let (old, new) = (escape_formula(&old), escape_formula(&new));
+            let name = escape_formula(reason.channel);
             write_row(&mut writer, &[&number, &time, &name, &old, &new, reason.verdict.word(), reason.by])?;
         }
         let mine = rows.iter().take_while(|r| r.after_row as usize == row).count();
@@ -78,7 +78,15 @@ fn added(track: &Track, texts: &Cells<'_>, new: &NewRow, writer: &mut csv::Write
         };
         let name = of_row(&track.columns[*column].name);
         let text = cell_text(track, *column, "", Some(*value));
-        let fields = ["", &inert(&time), &inert(&name), "", &inert(&text), Verdict::Missing.word(), FILLED_BY];
+        let fields = [
+            "",
+            &escape_formula(&time),
+            &escape_formula(&name),
+            "",
+            &escape_formula(&text),
+            Verdict::Missing.word(),
+            FILLED_BY,
+        ];
         write_row(writer, &fields)?;
     }
     Ok(())

@@ -7,7 +7,7 @@ use super::Session;
 use super::save::known;
 use super::table::write_row;
 use crate::error::{Error, Result};
-use crate::track::{Track, inert};
+use crate::track::{Track, escape_formula};
 
 /// The columns, in order.
 const HEADER: [&str; 6] = ["row", "time", "channel", "raw", "verdict", "note"];
@@ -24,7 +24,7 @@ pub fn decisions(track: &Track, session: &Session, out: &mut dyn Write) -> Resul
             let (time, value) = known(track, &plan.channel, row as usize);
             let time = if track.time.column.is_some() { time } else { row.to_string() };
             let number = (u64::from(row) + 1).to_string();
-            let (channel, note) = (inert(&plan.channel), inert(&decision.note));
+            let (channel, note) = (escape_formula(&plan.channel), escape_formula(&decision.note));
             write_row(&mut writer, &[&number, &time, &channel, &value, decision.ruling.verdict().word(), &note])?;
         }
     }

@@ -9,7 +9,7 @@ use super::table::{Walk, cell, time_text, walk, write_row};
 use super::{Analysed, Mark, Objected, Run, Session};
 use crate::error::{Error, Result};
 use crate::method::{Direction, Verdict};
-use crate::track::{Track, inert};
+use crate::track::{Track, escape_formula};
 
 /// The columns, in order.
 const HEADER: [&str; 17] = [
@@ -78,7 +78,7 @@ fn of_sample(
     let fields = [
         e.row.to_string(),
         String::new(),
-        inert(channel.name).into_owned(),
+        escape_formula(channel.name).into_owned(),
         cell(Some(e.raw)),
         e.verdict.word().to_owned(),
         e.run.map_or("", |r| if r.length == 1 { "isolated" } else { "patch" }).to_owned(),
@@ -92,7 +92,7 @@ fn of_sample(
         cell(e.clean),
         e.action().to_owned(),
         e.decided_by().to_owned(),
-        inert(&e.note).into_owned(),
+        escape_formula(&e.note).into_owned(),
     ];
     let evidence = e.objected.as_ref().map(|o| o.evidence.clone()).unwrap_or_default();
     Some((fields, [channel.outcome.detection.by(position).to_owned(), evidence]))

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::{Analysed, Outcome, Place, Session};
 use crate::error::{Error, Result};
 use crate::method::Verdict;
-use crate::track::{Cells, Channel, Series, Track, for_each_row, inert};
+use crate::track::{Cells, Channel, Series, Track, escape_formula, for_each_row};
 
 /// One channel of a result, walked row by row.
 #[derive(Debug)]
@@ -109,7 +109,7 @@ pub fn walk(
 /// The text of the time of a row, as the file has it (but no formula); the sample number where there is no time column.
 #[must_use]
 pub fn time_text(track: &Track, row: usize, cells: &Cells<'_>) -> String {
-    track.time.column.map_or_else(|| row.to_string(), |c| inert(&cells.text(c)).into_owned())
+    track.time.column.map_or_else(|| row.to_string(), |c| escape_formula(&cells.text(c)).into_owned())
 }
 
 /// A number as the tables have it, empty for none.

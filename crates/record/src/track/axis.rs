@@ -1,7 +1,7 @@
 //! Times for people: labels, what a user types, and new times in the form of the file.
 
 use super::calendar::{DAY, Date, SECOND};
-use super::stamp::{self, Count};
+use super::timestamp::{self, Count};
 use super::timing::Timing;
 use super::{DateOrder, Part, TimeAxis, TimeFormat};
 
@@ -66,11 +66,12 @@ impl TimeAxis {
     pub fn parse(&self, text: &str) -> Option<f64> {
         let text = text.trim();
         let bytes = text.as_bytes();
-        let number = |unit| match stamp::count(bytes, unit, false).or_else(|| stamp::count(bytes, unit, true))? {
-            Count::Exact(ns) => Some(self.seconds_at(i128::from(ns))),
-            #[expect(clippy::cast_precision_loss, reason = "a typed number with an exponent or ten decimals")]
-            Count::Inexact(value) => Some((value * unit as f64 - self.origin_ns as f64) / SECOND as f64),
-        };
+        let number =
+            |unit| match timestamp::count(bytes, unit, false).or_else(|| timestamp::count(bytes, unit, true))? {
+                Count::Exact(ns) => Some(self.seconds_at(i128::from(ns))),
+                #[expect(clippy::cast_precision_loss, reason = "a typed number with an exponent or ten decimals")]
+                Count::Inexact(value) => Some((value * unit as f64 - self.origin_ns as f64) / SECOND as f64),
+            };
         let read = || {
             let timing = Timing { zone: self.zone.clone(), ..Timing::of(0, None, self.format.clone()) };
             match timing.read(|_| bytes, false)? {
@@ -80,11 +81,11 @@ impl TimeAxis {
         };
         let calendar = || {
             let stamp = match self.format {
-                TimeFormat::YearLast { day_first } => stamp::year_last(bytes, day_first),
+                TimeFormat::YearLast { day_first } => timestamp::year_last(bytes, day_first),
                 _ => None,
             };
-            let stamp = stamp.or_else(|| stamp::iso(bytes)).map(i128::from);
-            stamp.or_else(|| self.next_at(stamp::clock(bytes)?)).map(|ns| self.seconds_at(ns))
+            let stamp = stamp.or_else(|| timestamp::iso(bytes)).map(i128::from);
+            stamp.or_else(|| self.next_at(timestamp::clock(bytes)?)).map(|ns| self.seconds_at(ns))
         };
         match self.format {
             TimeFormat::SampleNumber | TimeFormat::Seconds => number(SECOND),
@@ -98,7 +99,7 @@ impl TimeAxis {
             TimeFormat::Duration => super::timing::duration(bytes).map(|ns| self.seconds_at(i128::from(ns))),
             TimeFormat::Parts(_) if self.is_calendar() => calendar(),
             TimeFormat::Parts(_) => self.next_at(super::time::part_clock(bytes)?).map(|ns| self.seconds_at(ns)),
-            TimeFormat::Clock => self.next_at(stamp::clock(bytes)?).map(|ns| self.seconds_at(ns)),
+            TimeFormat::Clock => self.next_at(timestamp::clock(bytes)?).map(|ns| self.seconds_at(ns)),
         }
     }
 
@@ -120,10 +121,10 @@ impl TimeAxis {
             return text;
         }
         match self.format {
-            TimeFormat::YearLast { day_first } if stamp::year_last_parts(bytes).is_some() => {
+            TimeFormat::YearLast { day_first } if timestamp::year_last_parts(bytes).is_some() => {
                 like_year_last(ns, sample, day_first)
             }
-            _ if stamp::iso(bytes).is_some() => like_iso(ns, sample),
+            _ if timestamp::iso(bytes).is_some() => like_iso(ns, sample),
             _ => like_clock(ns.rem_euclid(i128::from(DAY)), sample),
         }
     }
@@ -349,7 +350,7 @@ fn after_date(rest: &str) -> (&str, &str, &str) {
 fn like_dated(ns: i128, rest: &str, date_text: impl Fn(Date) -> String) -> String {
     let (mark, time, zone) = after_date(rest);
     let form = ClockForm::of(time);
-    let offset = stamp::offset(zone.trim().as_bytes()).unwrap_or(0);
+    let offset = timestamp::offset(zone.trim().as_bytes()).unwrap_or(0);
     let local = rounded(ns + i128::from(offset), form.digits);
     let date = date_of(local).map(date_text).unwrap_or_default();
     if time.is_empty() {

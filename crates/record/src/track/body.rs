@@ -282,7 +282,7 @@ fn add_fault(to: &mut Fault, from: &Fault, lines_before: u64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::waves::parse_bytes;
+    use super::super::parallel_parse::parse_bytes;
     use super::super::{Delimiter, TimeFormat};
     use super::*;
 

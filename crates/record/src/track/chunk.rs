@@ -7,8 +7,8 @@ use super::body::{Body, Plan};
 use super::number::Cell;
 use super::order::UNREADABLE;
 use super::quick::{Quick, QuickRow};
-use super::stamp::Count;
 use super::text::decoded;
+use super::timestamp::Count;
 use super::timing::nanoseconds;
 use super::tokens::{Layout, OpenQuote, RecordKind, Records, Span, inner, is_empty, split};
 

@@ -4,22 +4,22 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::body::{Body, Numbers, Plan};
+use super::column_roles::{Roles, assign, release};
 use super::feed::{Feed, Unfit};
 use super::formats::{self, Known};
 use super::head::{Head, open_quote};
 use super::mend::{About, Mended};
+use super::multi_track::{self, Targets};
 use super::odd::Oddity;
 use super::order::{Moments, Ordered, Rows, order, sample_numbers};
 use super::packing::Packing;
-use super::roles::{Roles, assign, release};
-use super::shape::{refuse_binaries, refuse_long_form, refuse_other_formats};
-use super::streamed::streamed;
-use super::targets::{self, Targets};
+use super::parallel_parse::{Failure, parse};
+use super::streaming_load::streamed;
 use super::text::{Text, path_of, sha256, stored};
 use super::timing::{Timing, choose};
 use super::tokens::inner;
+use super::unsupported::{refuse_binaries, refuse_long_form, refuse_other_formats};
 use super::view::Want;
-use super::waves::{Failure, parse};
 use super::{
     Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Extent, Fault, Faults, LoadOptions, RowsAt, Rules,
     Source, TimeAxis, TimeFormat, Track, Viewed, Wanted, notes, printable, rows,
@@ -235,7 +235,7 @@ impl Understood {
         }
         let track_column = match roles.track {
             Some(told) => Some(told),
-            None if self.rules == Rules::Second => targets::recognised(&mut track, moments.as_ref(), again, head)?,
+            None if self.rules == Rules::Second => multi_track::recognised(&mut track, moments.as_ref(), again, head)?,
             None => None,
         };
         let targets = match track_column {

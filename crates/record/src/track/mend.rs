@@ -2,8 +2,8 @@
 //! again, hours that come twice.
 
 use super::calendar::DAY;
+use super::multi_track::NOBODY;
 use super::order::UNREADABLE;
-use super::targets::NOBODY;
 use super::time::Zone;
 
 /// What was done to the moments of a record.

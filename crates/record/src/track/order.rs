@@ -4,7 +4,7 @@ use super::Wanted;
 use super::axis::seconds_of;
 use super::calendar::{DAY, SECOND};
 use super::mend::{About, Mended, mend};
-use super::targets::NOBODY;
+use super::multi_track::NOBODY;
 use super::timing::is_midnight;
 
 /// The moments of all rows.

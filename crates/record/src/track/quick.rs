@@ -135,7 +135,7 @@ impl<'a> Quick<'a> {
                         if self.reading.is_marker(cell) {
                             row.missing.push(column);
                         }
-                    } else if let Some(super::stamp::Count::Exact(ns)) = self.timing?.read(|_| cell, false) {
+                    } else if let Some(super::timestamp::Count::Exact(ns)) = self.timing?.read(|_| cell, false) {
                         row.moment = ns;
                         present = true;
                     } else {
@@ -253,8 +253,8 @@ impl Digits {
 #[cfg(test)]
 mod tests {
     use super::super::body::Plan;
-    use super::super::waves::parse_bytes;
-    use super::super::{Encoding, stamp};
+    use super::super::parallel_parse::parse_bytes;
+    use super::super::{Encoding, timestamp};
     use super::*;
     use proptest::prelude::*;
 
@@ -310,7 +310,7 @@ mod tests {
         let quick = Quick::new(layout(None), &reading, Some(&timing), &[None, Some(0), None], [3, 3]).unwrap();
         let mut row = QuickRow { values: vec![0.0], ..QuickRow::default() };
         assert_eq!(quick.read(b"2019-11-11T17:57:05Z,-1.5,abc\r\nx", &mut row), Some(31));
-        assert_eq!((row.moment, row.values[0]), (stamp::iso(b"2019-11-11T17:57:05Z").unwrap(), -1.5));
+        assert_eq!((row.moment, row.values[0]), (timestamp::iso(b"2019-11-11T17:57:05Z").unwrap(), -1.5));
         assert_eq!(quick.read(b"2019-11-11,,", &mut row), Some(12));
         assert_eq!(row.missing, [1, 2]);
         for other in [
@@ -327,7 +327,7 @@ mod tests {
         }
         let quoted = Quick::new(layout(Some(b'"')), &reading, Some(&timing), &[None, Some(0), None], [3, 3]).unwrap();
         assert_eq!(quoted.read(b"\"2019-11-11\",\"-1.5\",\" a \"\nx", &mut row), Some(26));
-        assert_eq!((row.moment, row.values[0], row.missing.len()), (stamp::iso(b"2019-11-11").unwrap(), -1.5, 0));
+        assert_eq!((row.moment, row.values[0], row.missing.len()), (timestamp::iso(b"2019-11-11").unwrap(), -1.5, 0));
         for other in
             ["2019-11-11,\"1,5\",\n", "2019-11-11,1,\"a,b\"\n", "2019-11-11,1,\"a\nb\"\n", "2019-11-11,1,\"a\"b\"\n"]
         {

@@ -2,13 +2,13 @@
 
 use std::io::Write;
 
+use super::add_columns::{Beside, NewColumn};
 use super::cells::Cells;
 use super::number::Reading;
 use super::rows::{text_of, unchanged, walk};
 use super::style::Style;
 use super::text::{Text, decoded, path_of};
 use super::tokens::{Layout, Record, Span, inner};
-use super::widen::{Beside, NewColumn};
 use super::{Delimiter, Encoding, Track};
 use crate::error::{Error, Result};
 

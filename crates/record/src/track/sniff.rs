@@ -7,7 +7,7 @@ use super::odd::{Oddity, odd};
 use super::time::{DateOrder, fields};
 use super::tokens::Mark;
 use super::tokens::{Layout, RecordKind, Records, inner, kind_of, line_end_of, split};
-use super::{Delimiter, LoadOptions, stamp};
+use super::{Delimiter, LoadOptions, timestamp};
 
 /// How much of a file is looked at.
 pub(crate) const SAMPLE_BYTES: usize = 64 << 10;
@@ -33,8 +33,8 @@ pub(crate) fn look(cell: &[u8], reading: &Reading) -> Look {
     match reading.cell(cell) {
         Cell::Number(_) | Cell::Infinite => Look::Number,
         Cell::Missing => Look::Empty,
-        Cell::Text if stamp::iso(cell).is_some() || stamp::clock(cell).is_some() => Look::Time,
-        Cell::Text if [true, false].iter().any(|first| stamp::year_last(cell, *first).is_some()) => Look::Time,
+        Cell::Text if timestamp::iso(cell).is_some() || timestamp::clock(cell).is_some() => Look::Time,
+        Cell::Text if [true, false].iter().any(|first| timestamp::year_last(cell, *first).is_some()) => Look::Time,
         Cell::Text if is_stamp(cell) => Look::Time,
         Cell::Text if odd(cell, reading.decimal_comma).is_some() => Look::Number,
         Cell::Text => Look::Text,

@@ -11,7 +11,7 @@ use memchr::{memchr, memchr_iter};
 use sha2::{Digest, Sha256};
 
 use super::packing::{Packing, Unpackable};
-use super::shape::refuse_binaries;
+use super::unsupported::refuse_binaries;
 use super::view::{View, Want};
 use super::{Encoding, Extent, Format, Source, Wanted};
 use crate::error::{Error, Result};

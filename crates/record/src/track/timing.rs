@@ -5,8 +5,8 @@ use std::path::Path;
 use super::calendar::DAY;
 use super::calendar::SECOND;
 use super::head::Head;
-use super::stamp::{self, Count};
 use super::time::{DateOrder, Part, Pieces, Zone, fields, parts_moment};
+use super::timestamp::{self, Count};
 use super::{LoadOptions, Rules, TimeFormat, printable};
 use crate::error::{Error, Result};
 
@@ -102,15 +102,15 @@ impl Timing {
     pub(crate) fn read<'a>(&self, cell: impl Fn(usize) -> &'a [u8], decimal_comma: bool) -> Option<Moment> {
         if let Some(date) = self.date_column {
             let midnight = calendar(&self.format, cell(date))?;
-            let local = midnight.checked_add(stamp::clock(cell(self.column))?)?;
+            let local = midnight.checked_add(timestamp::clock(cell(self.column))?)?;
             return self.in_zone(local, false).map(Count::Exact);
         }
         let single = || cell(self.column);
         match &self.format {
             TimeFormat::SampleNumber => None,
-            TimeFormat::Seconds => stamp::count(single(), SECOND, decimal_comma),
+            TimeFormat::Seconds => timestamp::count(single(), SECOND, decimal_comma),
             TimeFormat::Elapsed { unit_ns } | TimeFormat::Epoch { unit_ns } => {
-                match stamp::count(single(), *unit_ns, decimal_comma)? {
+                match timestamp::count(single(), *unit_ns, decimal_comma)? {
                     #[expect(clippy::cast_precision_loss, reason = "a unit is a short number")]
                     Count::Inexact(value) => nanoseconds(value * *unit_ns as f64),
                     exact => Some(exact),
@@ -151,7 +151,7 @@ impl Timing {
                     || !parts.iter().any(|p| p.dates());
                 self.in_zone(moment, apart)
             }
-            TimeFormat::Clock => stamp::clock(text),
+            TimeFormat::Clock => timestamp::clock(text),
             _ => None,
         }
     }
@@ -167,9 +167,9 @@ impl Timing {
 
 fn calendar(format: &TimeFormat, cell: &[u8]) -> Option<i64> {
     match format {
-        TimeFormat::YearLast { day_first } => stamp::year_last(cell, *day_first),
-        TimeFormat::Clock => stamp::clock(cell),
-        _ => stamp::iso(cell),
+        TimeFormat::YearLast { day_first } => timestamp::year_last(cell, *day_first),
+        TimeFormat::Clock => timestamp::clock(cell),
+        _ => timestamp::iso(cell),
     }
 }
 
@@ -187,7 +187,7 @@ pub(crate) fn duration(text: &[u8]) -> Option<i64> {
 /// A number of units after a zero that lies so many seconds after 1970.
 fn since(text: &[u8], unit_ns: i64, zero_s: i64, decimal_comma: bool) -> Option<i64> {
     #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "seconds of a calendar")]
-    match stamp::count(text, unit_ns, decimal_comma) {
+    match timestamp::count(text, unit_ns, decimal_comma) {
         Some(Count::Exact(ns)) => ns.checked_add(zero_s.checked_mul(SECOND)?),
         Some(Count::Inexact(value)) => {
             // More decimals than nanoseconds have, or days from far away: whole units apart from their decimals.

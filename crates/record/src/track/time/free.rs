@@ -90,7 +90,7 @@ impl<'a> Tokens<'a> {
     }
 
     fn value(&self, token: Token) -> i64 {
-        super::super::stamp::integer(self.bytes(token)).unwrap_or(i64::MAX)
+        super::super::timestamp::integer(self.bytes(token)).unwrap_or(i64::MAX)
     }
 }
 

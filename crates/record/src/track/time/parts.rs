@@ -2,7 +2,7 @@
 //! second of the week.
 
 use super::super::calendar::{DAY, Date, SECOND};
-use super::super::stamp::{self, Count};
+use super::super::timestamp::{self, Count};
 use super::free::{DateOrder, fields};
 
 /// What a column contributes to the time.
@@ -49,12 +49,12 @@ pub(crate) fn moment<'a>(parts: &[Part], cell: impl Fn(usize) -> &'a [u8], decim
     let mut sum = 0_i64;
     for (place, part) in parts.iter().enumerate() {
         let text = cell(place);
-        let count = |unit: i64| match stamp::count(text, unit, decimal_comma)? {
+        let count = |unit: i64| match timestamp::count(text, unit, decimal_comma)? {
             Count::Exact(ns) => Some(ns),
             #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "a short number of units")]
             Count::Inexact(value) => Some((value * unit as f64).round() as i64),
         };
-        let whole = || stamp::integer(text).or_else(|| whole_number(text));
+        let whole = || timestamp::integer(text).or_else(|| whole_number(text));
         match *part {
             Part::Year => {
                 let value = whole()?;
@@ -93,22 +93,22 @@ pub(crate) fn moment<'a>(parts: &[Part], cell: impl Fn(usize) -> &'a [u8], decim
 /// `4.0` is 4.
 fn whole_number(text: &[u8]) -> Option<i64> {
     let at = text.iter().position(|b| matches!(b, b'.' | b','))?;
-    text[at + 1..].iter().all(|b| *b == b'0').then(|| stamp::integer(&text[..at]))?
+    text[at + 1..].iter().all(|b| *b == b'0').then(|| timestamp::integer(&text[..at]))?
 }
 
 /// A time of day with colons in any spelling, or as digits: `100000`, `100000.25`, `1000`, `930`.
 pub(crate) fn clock(text: &[u8]) -> Option<i64> {
     if text.contains(&b':') {
-        return stamp::clock(text).or_else(|| {
+        return timestamp::clock(text).or_else(|| {
             let told = fields(text, DateOrder::YearFirst)?.told(text)?;
             told.days.is_none().then_some(told.of_day)
         });
     }
     let (digits, fraction) = match text.iter().position(|b| matches!(b, b'.' | b',')) {
-        Some(at) => (&text[..at], stamp::fraction_ns(&text[at + 1..]).filter(|_| at + 1 < text.len())?),
+        Some(at) => (&text[..at], timestamp::fraction_ns(&text[at + 1..]).filter(|_| at + 1 < text.len())?),
         None => (text, 0),
     };
-    let value = stamp::integer(digits)?;
+    let value = timestamp::integer(digits)?;
     // Leading zeros may be gone: 930 is half past nine, 5 is midnight and five minutes (or seconds with decimals).
     let (hour, minute, second) = match digits.len() {
         5 | 6 => (value / 10_000, value / 100 % 100, value % 100),

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use jiff::civil::{ISOWeekDate, Weekday};
 
 use super::super::calendar::{DAY, Date, SECOND};
-use super::super::stamp;
+use super::super::timestamp;
 use super::words;
 
 /// What a part of the text says.
@@ -228,8 +228,8 @@ struct Said {
 /// How far a zone lies ahead of UTC: `+01:00`, `-7`, `CET`.
 fn offset(text: &[u8]) -> Option<i64> {
     match text {
-        [sign @ (b'+' | b'-'), hour] => stamp::offset(&[*sign, b'0', *hour]),
-        _ => stamp::offset(text).or_else(|| words::zone(text)),
+        [sign @ (b'+' | b'-'), hour] => timestamp::offset(&[*sign, b'0', *hour]),
+        _ => timestamp::offset(text).or_else(|| words::zone(text)),
     }
 }
 
@@ -239,9 +239,9 @@ impl Said {
             Field::MonthName => self.month = Some(words::month(text)?),
             Field::Half => self.afternoon = Some(words::afternoon(text)?),
             Field::Zone => self.offset = Some(offset(text)?),
-            Field::Fraction => self.fraction = stamp::fraction_ns(text)?,
+            Field::Fraction => self.fraction = timestamp::fraction_ns(text)?,
             _ => {
-                let value = stamp::integer(text)?;
+                let value = timestamp::integer(text)?;
                 let place = match field {
                     Field::Year => &mut self.year,
                     Field::YearOfCentury => {

@@ -19,7 +19,8 @@ impl Zone {
     /// # Errors
     /// [`Error::Usage`] for a name that is not known.
     pub fn find(name: &str) -> Result<Self> {
-        let offset = super::super::stamp::offset(name.as_bytes()).filter(|_| name.starts_with(['+', '-', 'Z', 'U']));
+        let offset =
+            super::super::timestamp::offset(name.as_bytes()).filter(|_| name.starts_with(['+', '-', 'Z', 'U']));
         let zone = match offset.and_then(|ns| i32::try_from(ns / super::super::calendar::SECOND).ok()) {
             Some(seconds) => jiff::tz::Offset::from_seconds(seconds).ok().map(TimeZone::fixed),
             None => TimeZone::get(name).ok(),

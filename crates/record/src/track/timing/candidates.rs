@@ -238,7 +238,7 @@ impl<'a> Candidates<'a> {
         let told = told.map(|told| names::find(names.iter().map(String::as_str), told).ok());
         let is_id = move |c: &usize| match told {
             Some(told) => told == Some(*c),
-            None => super::super::roles::is_id_column(&names[*c]),
+            None => super::super::column_roles::is_id_column(&names[*c]),
         };
         (0..names.len()).filter(move |c| *c != time).filter(is_id)
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::super::calendar::SECOND;
 use super::super::head::Head;
-use super::super::stamp;
+use super::super::timestamp;
 use super::super::{LoadOptions, TimeFormat, TimeUnit, Worded, names, printable};
 use super::{Timing, undecided, unitless, unreadable};
 use crate::error::Result;
@@ -28,13 +28,13 @@ impl Form {
             !cells.is_empty() && cells.iter().filter(|c| reads(c)).count() * 2 >= cells.len()
         };
         let date_only = || most(&|c| !c.contains(&b':'));
-        if most(&|c| stamp::iso(c).is_some()) {
+        if most(&|c| timestamp::iso(c).is_some()) {
             Some(Self::Iso { date_only: date_only() })
-        } else if most(&|c| stamp::clock(c).is_some()) {
+        } else if most(&|c| timestamp::clock(c).is_some()) {
             Some(Self::Clock)
-        } else if most(&|c| [true, false].iter().any(|first| stamp::year_last(c, *first).is_some())) {
+        } else if most(&|c| [true, false].iter().any(|first| timestamp::year_last(c, *first).is_some())) {
             Some(Self::YearLast { date_only: date_only() })
-        } else if most(&|c| stamp::count(c, 1, head.reading.decimal_comma).is_some()) {
+        } else if most(&|c| timestamp::count(c, 1, head.reading.decimal_comma).is_some()) {
             Some(Self::Number)
         } else {
             None
@@ -172,7 +172,7 @@ fn day_first(head: &Head, column: usize, options: &LoadOptions, path: &Path) -> 
         return Ok(day_first);
     }
     let cells = head.column(column);
-    let parts: Vec<_> = cells.iter().filter_map(|c| stamp::year_last_parts(c.as_bytes())).collect();
+    let parts: Vec<_> = cells.iter().filter_map(|c| timestamp::year_last_parts(c.as_bytes())).collect();
     let (first, second) = (parts.iter().any(|p| p.first > 12), parts.iter().any(|p| p.second > 12));
     // Only day first is written with points.
     match (first || parts.iter().any(|p| p.separator == b'.'), second) {

@@ -1,8 +1,8 @@
 //! What the cells of a column look like, as times.
 
 use super::super::head::Head;
-use super::super::stamp;
 use super::super::time::{DateOrder, Pattern, fields};
+use super::super::timestamp;
 use super::duration;
 
 /// What the cells of a column look like, as times.
@@ -43,16 +43,16 @@ impl Form {
         }
         // Most columns are numbers, and seen to be so by a few cells.
         let few = &cells[..cells.len().min(8)];
-        let number = |c: &[u8]| stamp::count(c, 1, head.reading.decimal_comma).is_some();
+        let number = |c: &[u8]| timestamp::count(c, 1, head.reading.decimal_comma).is_some();
         if !few.is_empty() && few.iter().all(|c| number(c)) && most(&number) {
             return Some(Self::Number);
         }
         let told = |c: &[u8]| DateOrder::ALL.into_iter().find_map(|o| fields(c, o)?.told(c));
-        if most(&|c| stamp::iso(c).is_some()) {
+        if most(&|c| timestamp::iso(c).is_some()) {
             Some(Self::Iso { date_only: most(&|c| !clocked(c)) })
-        } else if most(&|c| [true, false].iter().any(|first| stamp::year_last(c, *first).is_some())) {
+        } else if most(&|c| [true, false].iter().any(|first| timestamp::year_last(c, *first).is_some())) {
             Some(Self::YearLast { date_only: most(&|c| !clocked(c)) })
-        } else if most(&|c| stamp::clock(c).is_some())
+        } else if most(&|c| timestamp::clock(c).is_some())
             && !cells.iter().any(|c| c.starts_with(b"24:") || beyond_a_day(c))
         {
             Some(Self::Clock)

@@ -9,11 +9,11 @@ use crossbeam_channel::{Receiver, Sender, unbounded};
 use super::advice::{self, Advise};
 use super::consensus::{self, Poll, Polling};
 use super::files::{Desk, Task};
+use super::jobs::{self, Errand, Judge};
 use super::journal::Journal;
-use super::known::Known;
 use super::message::{Effect, Message, Written};
 use super::model::{Model, Overlay};
-use super::office::{self, Errand, Judge};
+use super::session_guard::Known;
 use super::terminal::Screen;
 use super::update::update;
 use super::watch::Watch;
@@ -53,7 +53,7 @@ impl Outside {
     /// Workers and a journal for the model, which offers what earlier workbenches left.
     pub(super) fn new(folder: Option<PathBuf>, model: &mut Model) -> Self {
         let (sender, messages) = unbounded();
-        let (worker, advisor) = (office::judge(sender.clone()), advice::advise(sender.clone()));
+        let (worker, advisor) = (jobs::judge(sender.clone()), advice::advise(sender.clone()));
         let journal = Journal::start(folder.clone(), model, sender.clone());
         let poller = consensus::poll(sender.clone());
         let desk = Desk::new(sender.clone(), folder.as_deref());
@@ -171,7 +171,7 @@ impl Outside {
     }
 
     fn write(&self, model: &Model, errand: Errand) {
-        office::write(Arc::clone(&model.track), model.document(), errand, self.known.clone(), self.sender.clone());
+        jobs::write(Arc::clone(&model.track), model.document(), errand, self.known.clone(), self.sender.clone());
     }
 }
 

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use crossbeam_channel::Sender;
 
 use super::advice::StepsJob;
-use super::known::Known;
 use super::message::{Message, Output, OutputKind, Written};
 use super::model::Model;
+use super::session_guard::Known;
 use super::words::counted;
 use crate::error::{Error, Result};
 use crate::job::Worker;

@@ -7,8 +7,8 @@ use memchr::memrchr;
 use super::feed::{Check, Feed, Supply, Unfit};
 use super::formats::viewed;
 use super::load::Understood;
+use super::parallel_parse::Failure;
 use super::text::{Text, path_of};
-use super::waves::Failure;
 use super::{Encoding, Extent, LoadOptions, Source, Track, Wanted};
 use crate::error::Error;
 

@@ -125,7 +125,7 @@ fn candidates(track: &Track, head: &Head, most: bool) -> Vec<usize> {
         cells.dedup();
         short && cells.len() * 3 <= rows.max(3)
     };
-    let named = |c: &usize| super::roles::is_id_column(&head.names[*c]);
+    let named = |c: &usize| super::column_roles::is_id_column(&head.names[*c]);
     let fits = |c: &usize| {
         let kind = track.columns[*c].kind;
         named(c) && !matches!(kind, ColumnKind::Time | ColumnKind::Empty)

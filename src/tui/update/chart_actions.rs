@@ -1,10 +1,10 @@
 //! What the plots show of the record: axes, layers, and which picture lies below the trace.
 
 use super::super::action::Action;
+use super::super::chart_data::Picture;
 use super::super::layout;
 use super::super::message::Effect;
 use super::super::model::{LowerKind, Model, PickerKind, Second, Tone, YMode};
-use super::super::picture::Picture;
 use super::super::plot::Layers;
 use super::picker;
 use crate::track::printable;

@@ -4,7 +4,7 @@ use super::body::{Numbers, truth};
 use super::head::Head;
 use super::sniff::{Look, look};
 use super::timing::Timing;
-use super::{Aside, ColumnKind, LoadOptions, Rules, names, printable, targets};
+use super::{Aside, ColumnKind, LoadOptions, Rules, multi_track, names, printable};
 use crate::error::{Error, Result};
 
 mod aside;
@@ -43,15 +43,16 @@ pub(crate) struct Roles {
 pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions) -> Result<Roles> {
     let find = |name: &String| names::find(head.names.iter().map(String::as_str), name);
     let mut channels =
-        options.channels.iter().map(|name| targets::base(head, options, name)).collect::<Result<Vec<_>>>()?;
+        options.channels.iter().map(|name| multi_track::base(head, options, name)).collect::<Result<Vec<_>>>()?;
     let mut seen = vec![false; head.names.len()];
-    let beside = options.beside.iter().map(|name| targets::base(head, options, name)).collect::<Result<Vec<_>>>()?;
+    let beside =
+        options.beside.iter().map(|name| multi_track::base(head, options, name)).collect::<Result<Vec<_>>>()?;
     if !channels.is_empty() {
         channels.extend(&beside);
     }
     channels.retain(|c| !std::mem::replace(&mut seen[*c], true));
     let truth = options.truth.as_ref().map(find).transpose()?;
-    let track = targets::column(head, options)?;
+    let track = multi_track::column(head, options)?;
     let is_time = |c: usize| timing.is_some_and(|t| t.has(c));
     let told = channels.iter().copied().find(|c| is_time(*c) || truth == Some(*c) || track == Some(*c));
     let twice = told.or(truth.filter(|t| is_time(*t) || track == truth)).or(track.filter(|t| is_time(*t)));

@@ -4,9 +4,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::action::Panel;
+use super::chart_data::Picture;
 use super::layout::{self, trace_parts};
 use super::model::Model;
-use super::picture::Picture;
 use super::plot::TracePlot;
 use super::update::queue::listed;
 use super::view::overlay;
