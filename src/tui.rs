@@ -275,10 +275,8 @@ fn take_in(
     pace: &mut Pace,
     inbox: Vec<Message>,
 ) -> Result<Next> {
-    // Advice that no panel shows changes nothing on the screen: nothing goes over the wire.
-    let unseen = |m: &Message| matches!(m, Message::Advised { .. } | Message::NoAdvice);
-    let panel = layout::arrange(model, model.screen()).is_some_and(|areas| areas.parameters.is_some());
-    let still = !panel && !inbox.is_empty() && inbox.iter().all(unseen);
+    // Without a message, a frame is due. A result may come in the same turn as advice that nobody sees.
+    outside.visible = inbox.is_empty();
     let leaves = outside.take_all(model, screen, inbox)? || outside.await_result(model, screen)?;
     if leaves {
         return Ok(Next::Leave);
@@ -290,7 +288,7 @@ fn take_in(
         return Ok(Next::Leave);
     }
     model.behind = outside.journal.behind();
-    if pace.draws(!still, screen.is_free()) {
+    if pace.draws(outside.visible, screen.is_free()) {
         screen.draw(model)?;
     }
     Ok(Next::Stay)

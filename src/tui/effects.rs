@@ -11,6 +11,7 @@ use super::consensus::{self, Poll, Polling};
 use super::files::{Desk, Task};
 use super::jobs::{self, Errand, Judge};
 use super::journal::Journal;
+use super::layout;
 use super::message::{Effect, Message, Written};
 use super::model::{Model, Overlay};
 use super::session_guard::Known;
@@ -47,6 +48,15 @@ pub(super) struct Outside {
     desk: Desk,
     known: Known,
     _watch: Option<Watch>,
+    /// Whether a message that was taken in since this was last cleared can change what the screen shows.
+    pub(super) visible: bool,
+}
+
+/// True for a message that can change what the screen shows. Advice that no panel shows cannot: nothing goes over the
+/// wire for it.
+fn is_visible(model: &Model, message: &Message) -> bool {
+    let advice = matches!(message, Message::Advised { .. } | Message::NoAdvice);
+    !advice || layout::arrange(model, model.screen()).is_some_and(|areas| areas.parameters.is_some())
 }
 
 impl Outside {
@@ -60,7 +70,20 @@ impl Outside {
         let known = Known::default();
         sessions(model).into_iter().for_each(|file| known.read(file));
         let watch = Watch::over(&model.track, sender.clone());
-        Self { worker, advisor, advising: false, poller, sender, messages, journal, folder, desk, known, _watch: watch }
+        Self {
+            worker,
+            advisor,
+            advising: false,
+            poller,
+            sender,
+            messages,
+            journal,
+            folder,
+            desk,
+            known,
+            _watch: watch,
+            visible: true,
+        }
     }
 
     /// The same for a model that has taken the place of another, whose work is saved or not wanted.
@@ -109,6 +132,7 @@ impl Outside {
         if matches!(message, Message::Stepped { .. } | Message::Advised { .. } | Message::NoAdvice) {
             self.advising = false;
         }
+        self.visible |= is_visible(model, &message);
         let saved = matches!(&message, Message::Written { what, path, result: Ok(_) } if what.session(path).is_some());
         let effects = update(model, message);
         self.journal.note(model);
