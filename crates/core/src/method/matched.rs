@@ -11,7 +11,7 @@ use crate::stop::{Stop, Stopped};
 /// Carries the neighbours' values to the sample by the integral of a second channel that measures the rate.
 pub struct Matched;
 
-static PARAMS: &[Param] = &[K, WINDOW, SIGMA, shared::MAX_GAP, shared::FLOOR];
+static PARAMS: &[Param] = &[K, WINDOW, SIGMA, shared::MAX_GAP, shared::FLOOR, shared::DOUBT];
 
 const K: Param = shared::K.with_default(Value::Real(3.0));
 
