@@ -33,7 +33,7 @@ pub(super) fn bridge(
     for stretch in &record.stretches {
         let mut i = stretch.start + FEWEST;
         while i + FEWEST < stretch.end {
-            if i % Stop::STRIDE == 0 {
+            if i.is_multiple_of(Stop::STRIDE) {
                 stop.check()?;
             }
             let left = flank((stretch.start..i).rev(), masked);
