@@ -5,7 +5,8 @@
 //! at the residuals of the record about its own neighbours instead, and finds for each sample the limit at which a
 //! residual stops being noise:
 //!
-//! 1. `coast`: a coarse test from both sides masks what both object to, so that wild points do not count as noise.
+//! 1. `coast`: a coarse test from both sides masks what both object to, so that wild points do not count as noise;
+//!    `bridge` masks the patches that this misses, by one parabola over both sides of each.
 //! 2. `residual`: the distance of each sample from the median of the interpolations between its neighbours on both
 //!    sides, in two windows, with what is left of curvature taken off.
 //! 3. `background`: the 95 % quantile of the residuals of the neighbourhood: the limit rises where the noise does.
@@ -23,6 +24,7 @@ use crate::series::Series;
 use crate::stop::{Stop, Stopped};
 
 mod background;
+mod bridge;
 mod coast;
 pub mod repeated;
 mod residual;
@@ -34,11 +36,12 @@ mod words;
 pub mod wrap;
 
 use background::background;
+use bridge::bridge;
 use coast::coast;
 use residual::residuals;
 use resolution::resolution;
 pub use stretches::{local_interval, stretches};
-use threshold::{tail_weight, threshold};
+use threshold::{threshold, weight};
 
 /// What is known of a channel before a method judges it.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,8 +52,12 @@ pub struct Calibration {
     pub held: f64,
     /// For each present sample the residual at which noise ends, in channel units; infinite where nothing is known.
     pub limits: Vec<f64>,
+    /// How much heavier the tails of this record's noise are than normal ones, at least 1; the limits hold the square
+    /// of it.
+    pub tails: f64,
     /// For each present sample how far it lies outside of all that the neighbours on either side let expect, in channel
-    /// units; 0 inside. Where only one side has neighbours, a tenth of that.
+    /// units; 0 inside. In a patch the distance from the parabola that bridges it, where that is more. Where only one
+    /// side has neighbours, a tenth of that.
     pub objections: Vec<f64>,
 }
 
@@ -108,13 +115,14 @@ pub fn calibrate(series: &Series<'_>, stop: &Stop) -> Result<Calibration, Stoppe
         Record { t, y, stretches: stretches(t, Some(MAX_GAP)), holds: held >= HOLDS, resolution: resolution(y) };
     stop.check()?;
     let mut masked = coarse_mask(&record, stop)?;
-    let mut limits = round(&record, &mut masked, Round::First, stop)?;
-    for pass in [Round::Further, Round::Last] {
-        limits = round(&record, &mut masked, pass, stop)?;
-    }
+    round(&record, &mut masked, Round::First, stop)?;
+    round(&record, &mut masked, Round::Further, stop)?;
+    let Limits { limits, tails } = round(&record, &mut masked, Round::Last, stop)?;
     coast(&record, &limits, &mut masked, stop)?;
-    let objections = residual::outside(&record, &masked, stop)?;
-    Ok(Calibration { resolution: record.resolution, held, limits, objections })
+    let bridged = bridge(&record, &limits, &mut masked, stop)?;
+    let mut objections = residual::outside(&record, &masked, stop)?;
+    objections.iter_mut().zip(bridged).for_each(|(o, b)| *o = o.max(b));
+    Ok(Calibration { resolution: record.resolution, held, limits, tails, objections })
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -134,18 +142,25 @@ fn coarse_mask(record: &Record<'_>, stop: &Stop) -> Result<Vec<bool>, Stopped> {
     let limits: Vec<f64> = local.iter().map(|scale| (5.5 * scale).max(floor)).collect();
     let mut masked = nothing;
     coast(record, &limits, &mut masked, stop)?;
+    bridge(record, &limits, &mut masked, stop)?;
     Ok(masked)
 }
 
+/// What a round finds.
+struct Limits {
+    limits: Vec<f64>,
+    tails: f64,
+}
+
 /// One round: limits under the mask, and the mask that they give.
-fn round(record: &Record<'_>, masked: &mut Vec<bool>, pass: Round, stop: &Stop) -> Result<Vec<f64>, Stopped> {
+fn round(record: &Record<'_>, masked: &mut Vec<bool>, pass: Round, stop: &Stop) -> Result<Limits, Stopped> {
     let n = record.y.len();
     let (wide, narrow) = (background::Span { half: 100, middle: 10 }, background::Span { half: 50, middle: 10 });
     let first = pass == Round::First;
     let lower = (STEPS * record.resolution).max(if first { 0.0 } else { WHITE * white_noise(record, masked) });
     let mut least = vec![f64::INFINITY; n];
     let mut scores = vec![f64::INFINITY; n];
-    let mut weight = 1.0;
+    let mut tails = 1.0_f64;
     for (index, half) in WINDOWS.into_iter().enumerate() {
         let r = residuals(record, masked, half, stop)?;
         // 3.4 medians-and-a-bit and 2 quantiles of 85 %: 2.9 deviations of normal noise either way.
@@ -163,7 +178,7 @@ fn round(record: &Record<'_>, masked: &mut Vec<bool>, pass: Round, stop: &Stop) 
         };
         if index == 0 && !first {
             let local = background(&r, masked, wide, 0.9, stop)?;
-            weight = tail_weight(&r, masked, &local, 0.3 * base);
+            tails = threshold::tails(&r, masked, &local, (0.3 * base, record.resolution));
         }
         scores.iter_mut().zip(&r).zip(&limit).for_each(|((s, r), l)| *s = s.min(r / l));
         least.iter_mut().zip(&limit).for_each(|(all, l)| *all = all.min(*l));
@@ -172,15 +187,16 @@ fn round(record: &Record<'_>, masked: &mut Vec<bool>, pass: Round, stop: &Stop) 
         let outside = residual::outside(record, masked, stop)?;
         scores.iter_mut().zip(&outside).zip(&least).for_each(|((s, o), l)| *s = s.min(o / (0.5 * l)));
     }
-    let times = threshold(&scores, weight);
+    let times = threshold(&scores, weight(tails));
     least.par_iter_mut().for_each(|l| *l *= times);
     if pass != Round::Last {
         let low = if first { times } else { 0.6 * times };
         *masked = scores.iter().map(|s| *s >= low).collect();
         let limits: Vec<f64> = least.iter().map(|l| 0.8 * l).collect();
         coast(record, &limits, masked, stop)?;
+        bridge(record, &limits, masked, stop)?;
     }
-    Ok(least)
+    Ok(Limits { limits: least, tails })
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts of samples are far below 2^53")]

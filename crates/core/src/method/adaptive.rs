@@ -21,6 +21,7 @@ static PARAMS: &[Param] = &[
     shared::LOOK_BACK,
     shared::MAX_GAP,
     shared::FLOOR,
+    shared::DOUBT,
 ];
 
 const K: Param = shared::K.with_default(Value::Real(3.5)).with_paper(Some(Value::Real(3.0)));

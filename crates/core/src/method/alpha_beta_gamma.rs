@@ -13,8 +13,17 @@ use spread::Spread;
 /// A constant-acceleration tracker with growing memory, then steady gains.
 pub struct AlphaBetaGamma;
 
-static PARAMS: &[Param] =
-    &[K, ALPHA, shared::SIGMA, shared::MAX_RUN, shared::MAX_RATE, shared::LOOK_BACK, shared::MAX_GAP, shared::FLOOR];
+static PARAMS: &[Param] = &[
+    K,
+    ALPHA,
+    shared::SIGMA,
+    shared::MAX_RUN,
+    shared::MAX_RATE,
+    shared::LOOK_BACK,
+    shared::MAX_GAP,
+    shared::FLOOR,
+    shared::DOUBT,
+];
 
 const K: Param = shared::K.with_default(Value::Real(3.0));
 

@@ -9,8 +9,15 @@ use crate::stop::{Stop, Stopped};
 #[derive(Debug, Clone, Copy)]
 pub struct Chauvenet;
 
-static PARAMS: [Param; 6] =
-    [shared::TREND_ORDER, shared::REFIT, shared::MAX_PASSES, shared::BLOCK, shared::MAX_GAP, shared::FLOOR];
+static PARAMS: [Param; 7] = [
+    shared::TREND_ORDER,
+    shared::REFIT,
+    shared::MAX_PASSES,
+    shared::BLOCK,
+    shared::MAX_GAP,
+    shared::FLOOR,
+    shared::DOUBT,
+];
 
 static ABOUT: About = About {
     id: "chauvenet",

@@ -35,7 +35,7 @@ const MAX_RUN: Param = Param {
     matters: switching,
 };
 
-static PARAMS: [Param; 8] = [
+static PARAMS: [Param; 9] = [
     shared::WINDOW.with_default(Value::Whole(5)).with_paper(None),
     shared::K.with_default(Value::Real(4.0)),
     MODE,
@@ -44,6 +44,7 @@ static PARAMS: [Param; 8] = [
     shared::MAX_PASSES.with_default(Value::Whole(3)).with_paper(None),
     shared::MAX_GAP,
     shared::FLOOR,
+    shared::DOUBT,
 ];
 
 static ABOUT: About = About {

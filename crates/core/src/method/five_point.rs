@@ -10,8 +10,16 @@ use crate::stop::{Stop, Stopped};
 /// The least-squares line through the last five samples, extended to the next.
 pub struct FivePoint;
 
-static PARAMS: &[Param] =
-    &[K, shared::SIGMA, shared::MAX_RUN, shared::MAX_RATE, shared::LOOK_BACK, shared::MAX_GAP, shared::FLOOR];
+static PARAMS: &[Param] = &[
+    K,
+    shared::SIGMA,
+    shared::MAX_RUN,
+    shared::MAX_RATE,
+    shared::LOOK_BACK,
+    shared::MAX_GAP,
+    shared::FLOOR,
+    shared::DOUBT,
+];
 
 const K: Param = shared::K.with_default(Value::Real(3.0));
 

@@ -21,7 +21,7 @@ const MAX_FRACTION: Param = Param {
     matters: always,
 };
 
-static PARAMS: [Param; 8] = [
+static PARAMS: [Param; 9] = [
     shared::ALPHA.with_default(Value::Real(0.05)),
     MAX_FRACTION,
     shared::TREND_ORDER,
@@ -30,6 +30,7 @@ static PARAMS: [Param; 8] = [
     shared::BLOCK,
     shared::MAX_GAP,
     shared::FLOOR,
+    shared::DOUBT,
 ];
 
 static ABOUT: About = About {

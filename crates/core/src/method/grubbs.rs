@@ -9,7 +9,7 @@ use crate::stop::{Stop, Stopped};
 #[derive(Debug, Clone, Copy)]
 pub struct Grubbs;
 
-static PARAMS: [Param; 7] = [
+static PARAMS: [Param; 8] = [
     shared::ALPHA,
     shared::TREND_ORDER,
     shared::REFIT,
@@ -17,6 +17,7 @@ static PARAMS: [Param; 7] = [
     shared::BLOCK,
     shared::MAX_GAP,
     shared::FLOOR,
+    shared::DOUBT,
 ];
 
 static ABOUT: About = About {

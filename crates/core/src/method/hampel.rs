@@ -9,7 +9,7 @@ use crate::stop::{Stop, Stopped};
 #[derive(Debug, Clone, Copy)]
 pub struct Hampel;
 
-static PARAMS: [Param; 8] = [
+static PARAMS: [Param; 9] = [
     shared::WINDOW.with_paper(None),
     shared::K,
     shared::SCALE.with_paper(None),
@@ -18,6 +18,7 @@ static PARAMS: [Param; 8] = [
     shared::NOISE_FLOOR.with_paper(None),
     shared::MAX_GAP,
     shared::FLOOR,
+    shared::DOUBT,
 ];
 
 static ABOUT: About = About {

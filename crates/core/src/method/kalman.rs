@@ -35,6 +35,7 @@ static PARAMS: &[Param] = &[
     shared::LOOK_BACK,
     shared::MAX_GAP,
     shared::FLOOR,
+    shared::DOUBT,
 ];
 
 const C: Param = shared::C.with_matters(|s| !joint(s));

@@ -1,8 +1,8 @@
 //! The floor of each sample, applied to what a method says: noise that changes along the record needs a limit that
 //! changes with it, whatever the method.
 
-use super::shared::multiplier;
-use super::{Judged, Segment, Verdict, reaches};
+use super::shared::{DOUBT, multiplier};
+use super::{Direction, Directions, Judged, Segment, Verdict, reaches};
 use crate::param::Settings;
 use crate::stop::{Stop, Stopped};
 
@@ -11,7 +11,8 @@ use crate::stop::{Stop, Stopped};
 const OUTSIDE: f64 = 0.3;
 
 /// What `judged` is with no tolerance below the multiplier times the floor of its sample. An objection that does not
-/// reach that is withdrawn, and one with which only one side of the sample agrees leaves it suspect.
+/// reach that is withdrawn, and one with which only one side of the sample agrees leaves it suspect. Suspect is also
+/// what both reach with the share `doubt` of the lower limit, and where a real change, if it is one, begins.
 ///
 /// # Errors
 /// [`Stopped`] as soon as nobody waits for the result any more.
@@ -25,31 +26,49 @@ pub(super) fn bounded_below(
         return Ok(judged);
     }
     stop.check()?;
-    let k = multiplier(settings);
+    let (k, doubt) = (multiplier(settings), settings.real(DOUBT.key));
     judged.scale.clear();
-    for (i, verdict) in judged.verdict.iter_mut().enumerate() {
-        let (y, expected, tolerance) = (segment.y[i], judged.expected[i], &mut judged.tolerance[i]);
-        if tolerance.is_nan() || expected.is_nan() {
+    for i in 0..judged.verdict.len() {
+        let expected = judged.expected[i];
+        if judged.tolerance[i].is_nan() || expected.is_nan() {
             continue;
         }
-        *tolerance = tolerance.max(k * segment.floors[i]);
-        // What only one direction objects to is suspect already: its expected value is that of the other one.
-        if *verdict != Verdict::Outlier {
-            continue;
-        }
-        if !reaches((y - expected).abs(), *tolerance) {
-            *verdict = Verdict::Normal;
-        } else if segment.objections[i] < OUTSIDE * *tolerance {
-            *verdict = Verdict::Suspect;
-        }
+        let tolerance = judged.tolerance[i].max(k * segment.floors[i]);
+        judged.tolerance[i] = tolerance;
+        let (distance, objection) = ((segment.y[i] - expected).abs(), segment.objections[i]);
+        let both_sides = |limit: f64| reaches(distance, limit) && objection.outside >= OUTSIDE * limit;
+        let said = judged.verdict[i];
+        judged.verdict[i] = match said {
+            Verdict::Outlier if both_sides(tolerance) => Verdict::Outlier,
+            Verdict::Outlier if reaches(distance, tolerance) => Verdict::Suspect,
+            // What only one direction objects to: its expected value is that of the other one.
+            Verdict::Suspect if doubt >= 1.0 || begins(&judged.directions, i) => Verdict::Suspect,
+            Verdict::Outlier | Verdict::Suspect | Verdict::Normal
+                if doubt < 1.0 && both_sides(doubt * objection.lower * tolerance) =>
+            {
+                Verdict::Suspect
+            }
+            Verdict::Outlier | Verdict::Suspect => Verdict::Normal,
+            other => other,
+        };
     }
     Ok(judged)
+}
+
+/// True for the first sample of a run to which a direction objects: the others tell an analyst nothing more.
+fn begins(directions: &[Directions], i: usize) -> bool {
+    let at = |j: Option<usize>| j.and_then(|j| directions.get(j));
+    let forward = |j| at(j).is_some_and(|d| d.forward == Some(Direction::Abnormal));
+    let backward = |j| at(j).is_some_and(|d| d.backward == Some(Direction::Abnormal));
+    (forward(Some(i)) && !forward(i.checked_sub(1))) || (backward(Some(i)) && !backward(i.checked_add(1)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::{Method, hampel::Hampel};
+    use crate::method::Method;
+    use crate::method::hampel::Hampel;
+    use crate::method::noise::{Objection, Scales};
 
     #[test]
     fn a_flag_needs_the_floor_of_its_sample_and_the_objection_of_both_sides() {
@@ -57,7 +76,9 @@ mod tests {
         // The multiplier of hampel is 3 by default; that of these settings is 4.
         let mut settings = Settings::defaults(Hampel.about().params);
         settings.set_text("hampel", "k", "4").unwrap();
-        let (floors, objections) = ([1.0, 1.0, 3.0, 1.0], [0.0, 9.0, 9.0, 1.0]);
+        settings.set_text("hampel", "doubt", "1").unwrap();
+        let floors = [1.0, 1.0, 3.0, 1.0];
+        let objections = [0.0, 9.0, 9.0, 1.0].map(|outside| Objection { outside, lower: 1.0 });
         let t = [0.0, 1.0, 2.0, 3.0];
         let segment = Segment {
             t: &t,
@@ -78,5 +99,48 @@ mod tests {
         let judged = bounded_below(said, &segment, &settings, &Stop::never()).unwrap();
         let wanted = [Verdict::Normal, Verdict::Outlier, Verdict::Normal, Verdict::Suspect];
         assert_eq!((judged.verdict, judged.tolerance), (wanted.to_vec(), vec![4.0, 4.0, 12.0, 4.0]));
+    }
+
+    /// What a segment with floors of 1 (multiplier 3) and these objections makes of samples at `y`, expected at 0.
+    fn said(y: &[f64], objections: &[Objection], judged: Judged, doubt: &str) -> Vec<Verdict> {
+        let n = y.len();
+        let mut settings = Settings::defaults(Hampel.about().params);
+        settings.set_text("hampel", "doubt", doubt).unwrap();
+        let (t, floors): (Vec<f64>, Vec<f64>) = ((0..n).map(|i| i as f64).collect(), vec![1.0; n]);
+        let scales =
+            Scales { sigma: 1.0, floor: 1.0, floors: Some(floors.into()), objections: Some(objections.into()) };
+        let series = crate::series::Series::new(&t, y);
+        let segment = Segment::of(&series, &(0..n), &scales, None);
+        let judged = Judged { expected: vec![0.0; n], tolerance: vec![1.0; n], ..judged };
+        bounded_below(judged, &segment, &settings, &Stop::never()).unwrap().verdict
+    }
+
+    #[test]
+    fn doubt_begins_at_its_share_of_the_tolerance() {
+        use Verdict::{Normal, Outlier, Suspect};
+        let y = [0.0, 2.0, 2.0, 1.0, 4.0];
+        let objections = [9.0, 2.0, 0.1, 2.0, 4.0].map(|outside| Objection { outside, lower: 1.0 });
+        let judged = || Judged { verdict: vec![Normal, Outlier, Outlier, Outlier, Outlier], ..Judged::default() };
+        assert_eq!(said(&y, &objections, judged(), "0.5"), [Normal, Suspect, Normal, Normal, Outlier]);
+        assert_eq!(said(&y, &objections, judged(), "0.3"), [Normal, Suspect, Normal, Suspect, Outlier]);
+        assert_eq!(said(&y, &objections, judged(), "1"), [Normal, Normal, Normal, Normal, Outlier]);
+        // With heavy tails the lower limit lies farther below.
+        let heavy = objections.map(|o| Objection { lower: 0.6, ..o });
+        assert_eq!(said(&y, &heavy, judged(), "0.5"), [Normal, Suspect, Normal, Suspect, Outlier]);
+    }
+
+    #[test]
+    fn of_what_one_direction_objects_to_the_first_sample_is_suspect() {
+        use Verdict::{Normal, Suspect};
+        let one = |forward, backward| Directions { forward: Some(forward), backward: Some(backward) };
+        let (normal, abnormal) = (Direction::Normal, Direction::Abnormal);
+        let mut directions = vec![one(normal, abnormal); 2];
+        directions.extend(vec![one(abnormal, normal); 3]);
+        let judged = || Judged { verdict: vec![Suspect; 5], directions: directions.clone(), ..Judged::default() };
+        assert_eq!(
+            said(&[0.0; 5], &[Objection { outside: 0.0, lower: 1.0 }; 5], judged(), "0.5"),
+            [Normal, Suspect, Suspect, Normal, Normal]
+        );
+        assert_eq!(said(&[0.0; 5], &[Objection { outside: 0.0, lower: 1.0 }; 5], judged(), "1"), [Suspect; 5]);
     }
 }

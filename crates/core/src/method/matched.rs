@@ -13,7 +13,7 @@ pub struct Matched;
 
 mod bridge;
 
-static PARAMS: &[Param] = &[K, WINDOW, SIGMA, REPAIR_RULE, shared::MAX_GAP, shared::FLOOR];
+static PARAMS: &[Param] = &[K, WINDOW, SIGMA, REPAIR_RULE, shared::MAX_GAP, shared::FLOOR, shared::DOUBT];
 
 /// What takes the place of a run of outliers.
 const REPAIR_RULE: Param = Param {

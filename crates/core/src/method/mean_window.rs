@@ -9,7 +9,7 @@ use crate::stop::{Stop, Stopped};
 #[derive(Debug, Clone, Copy)]
 pub struct MeanWindow;
 
-static PARAMS: [Param; 9] = [
+static PARAMS: [Param; 10] = [
     shared::WINDOW,
     shared::K,
     shared::SCALE,
@@ -19,6 +19,7 @@ static PARAMS: [Param; 9] = [
     shared::NOISE_FLOOR,
     shared::MAX_GAP,
     shared::FLOOR,
+    shared::DOUBT,
 ];
 
 static ABOUT: About = About {

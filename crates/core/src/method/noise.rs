@@ -33,7 +33,17 @@ pub struct Scales {
     /// Lower bound on the scale of each sample of the channel, where the setting `floor` asks for that.
     pub floors: Option<Arc<[f64]>>,
     /// How far each sample of the channel lies outside of what both sides expect; with `floors`.
-    pub objections: Option<Arc<[f64]>>,
+    pub objections: Option<Arc<[Objection]>>,
+}
+
+/// What the calibration has against a sample, whatever the method.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Objection {
+    /// How far it lies outside of what both sides expect ([`Calibration::objections`]), in channel units.
+    pub outside: f64,
+    /// The limit with tails that weigh once, as a share of the limit, where they weigh squared
+    /// ([`Calibration::tails`]): above 0, at most 1.
+    pub lower: f64,
 }
 
 /// The scales of each segment under `settings` (which may have neither `sigma` nor `floor`); the channel is calibrated
@@ -69,8 +79,7 @@ pub fn scales_by(
     stop: &Stop,
 ) -> Result<Vec<Scales>, Stopped> {
     let own = calibration.filter(|_| by_record(settings)).map(|c| record_floors(c, settings));
-    let objections: Option<Arc<[f64]>> =
-        calibration.filter(|_| own.is_some()).map(|c| c.objections.iter().copied().collect());
+    let objections = calibration.filter(|_| own.is_some()).map(objections);
     let floors = match (choice(settings, "floor"), &own) {
         (None, _) => vec![0.0; segments.len()],
         (Some(Choice::Number(x)), _) => vec![x; segments.len()],
@@ -104,6 +113,11 @@ pub fn scales_by(
 fn record_floors(calibration: &Calibration, settings: &Settings) -> Arc<[f64]> {
     let usual = multiplier(&Settings::defaults(settings.params()));
     calibration.limits.iter().map(|limit| if limit.is_finite() { limit / usual } else { 0.0 }).collect()
+}
+
+fn objections(calibration: &Calibration) -> Arc<[Objection]> {
+    let lower = 1.0 / calibration.tails;
+    calibration.objections.iter().map(|&outside| Objection { outside, lower }).collect()
 }
 
 /// False when the method measures a scale of its own and knows none of the words that ask for one of these.

@@ -20,7 +20,7 @@ const SPLITS: Param = Param {
     matters: always,
 };
 
-static PARAMS: [Param; 8] = [
+static PARAMS: [Param; 9] = [
     shared::K,
     SPLITS,
     shared::TREND_ORDER,
@@ -29,6 +29,7 @@ static PARAMS: [Param; 8] = [
     shared::BLOCK,
     shared::MAX_GAP,
     shared::FLOOR,
+    shared::DOUBT,
 ];
 
 static ABOUT: About = About {

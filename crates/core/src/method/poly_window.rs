@@ -30,7 +30,8 @@ const GUARD: Param = Param {
     matters: window::has_feedback,
 };
 
-static PARAMS: [Param; 7] = [shared::WINDOW, ORDER, shared::K, shared::FEEDBACK, GUARD, shared::MAX_GAP, shared::FLOOR];
+static PARAMS: [Param; 8] =
+    [shared::WINDOW, ORDER, shared::K, shared::FEEDBACK, GUARD, shared::MAX_GAP, shared::FLOOR, shared::DOUBT];
 
 static ABOUT: About = About {
     id: "poly-window",

@@ -26,11 +26,8 @@ pub struct Segment<'a> {
     pub floor: f64,
     /// Lower bound on the scale of each sample; empty where one holds for all.
     pub floors: &'a [f64],
-    /// How far each sample lies outside of what both sides expect ([`Calibration::objections`]); with
-    /// [`Segment::floors`].
-    ///
-    /// [`Calibration::objections`]: crate::calibration::Calibration::objections
-    pub objections: &'a [f64],
+    /// What the calibration has against each sample; with [`Segment::floors`].
+    pub objections: &'a [noise::Objection],
     /// The present samples of the rate channel, over the whole record.
     pub rate: Option<Rate<'a>>,
 }

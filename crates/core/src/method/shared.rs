@@ -1,6 +1,6 @@
 //! Parameters that several methods share, each declared once.
 
-use crate::param::{Kind, Param, Settings, Step, Value, always};
+use crate::param::{Choice, Kind, Param, Settings, Step, Value, always};
 
 /// The multiplier of the scale; sections give it their own default.
 pub const K: Param = Param {
@@ -38,6 +38,18 @@ pub const FLOOR: Param = Param {
 
 /// The word of [`FLOOR`] that asks for the calibration of the record.
 pub const RECORD: &str = "record";
+
+/// Where suspects begin.
+pub const DOUBT: Param = Param {
+    key: "doubt",
+    help: "with floor = record: suspect from this share of the tolerance on (of less where the noise has heavy tails), \
+           where both sides object; 1: only what the method itself doubts",
+    unit: "",
+    kind: Kind::Real { min: 0.1, max: 1.0, step: Step::Add(0.05) },
+    default: Value::Real(0.5),
+    paper: None,
+    matters: doubt_matters,
+};
 
 /// How the noise scale is found.
 pub const SIGMA: Param = Param {
@@ -177,6 +189,11 @@ pub const ALPHA: Param = Param {
     paper: None,
     matters: always,
 };
+
+/// Only a calibrated record has limits for what is doubtful.
+fn doubt_matters(settings: &Settings) -> bool {
+    settings.choice(FLOOR.key) == Choice::Word(RECORD)
+}
 
 /// A mean is not changed by fitting it again, and after the only pass there is nothing to fit.
 fn refit_matters(settings: &Settings) -> bool {

@@ -14,8 +14,16 @@ use crate::stop::{Stop, Stopped};
 #[derive(Debug, Clone, Copy)]
 pub struct Template;
 
-static PARAMS: [Param; 7] =
-    [shared::WINDOW, shared::K, shared::SCALE, shared::FEEDBACK, shared::NOISE_FLOOR, shared::MAX_GAP, shared::FLOOR];
+static PARAMS: [Param; 8] = [
+    shared::WINDOW,
+    shared::K,
+    shared::SCALE,
+    shared::FEEDBACK,
+    shared::NOISE_FLOOR,
+    shared::MAX_GAP,
+    shared::FLOOR,
+    shared::DOUBT,
+];
 
 static ABOUT: About = About {
     id: "template",

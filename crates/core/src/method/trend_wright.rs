@@ -9,8 +9,16 @@ use crate::stop::{Stop, Stopped};
 #[derive(Debug, Clone, Copy)]
 pub struct TrendWright;
 
-static PARAMS: [Param; 7] =
-    [shared::K, shared::TREND_ORDER, shared::REFIT, shared::MAX_PASSES, shared::BLOCK, shared::MAX_GAP, shared::FLOOR];
+static PARAMS: [Param; 8] = [
+    shared::K,
+    shared::TREND_ORDER,
+    shared::REFIT,
+    shared::MAX_PASSES,
+    shared::BLOCK,
+    shared::MAX_GAP,
+    shared::FLOOR,
+    shared::DOUBT,
+];
 
 static ABOUT: About = About {
     id: "trend-wright",

@@ -33,6 +33,7 @@ static PARAMS: &[Param] = &[
     REPAIR_RULE,
     shared::MAX_GAP,
     shared::FLOOR,
+    shared::DOUBT,
 ];
 
 const DELTA: Param = Param {

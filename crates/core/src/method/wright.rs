@@ -9,7 +9,7 @@ use crate::stop::{Stop, Stopped};
 #[derive(Debug, Clone, Copy)]
 pub struct Wright;
 
-static PARAMS: [Param; 7] = [
+static PARAMS: [Param; 8] = [
     shared::K,
     shared::TREND_ORDER.with_default(Value::Whole(0)),
     shared::REFIT,
@@ -17,6 +17,7 @@ static PARAMS: [Param; 7] = [
     shared::BLOCK,
     shared::MAX_GAP,
     shared::FLOOR,
+    shared::DOUBT,
 ];
 
 static ABOUT: About = About {

@@ -20,8 +20,19 @@ use crate::session::digest::{Digest, WrittenDigest};
 use crate::session::{Data, Plan, Preparation, Recorded, Session, Setup, folder_of, is_period, method_of_id, tidied};
 use crate::track::{DASH, LoadOptions, Pattern, Rules, Source, Worded};
 
-/// Parameters that sessions of earlier programs do not have, with the value that stands for what those did.
-const LATER: [(&str, &str, Value); 1] = [("matched", "repair_rule", Value::Word("expected"))];
+/// A parameter that sessions of earlier programs do not have.
+struct Later {
+    /// The method that has it; none for every method that does.
+    method: Option<&'static str>,
+    key: &'static str,
+    /// The value that stands for what was done before.
+    before: Value,
+}
+
+const LATER: [Later; 2] = [
+    Later { method: Some("matched"), key: "repair_rule", before: Value::Word("expected") },
+    Later { method: None, key: "doubt", before: Value::Real(1.0) },
+];
 
 /// A session file larger than this is none.
 const LARGEST: u64 = 64 << 20;
@@ -352,8 +363,10 @@ impl Reader<'_> {
         let about = method.about();
         let mut settings = Settings::defaults(about.params);
         // Parameters that came later mean what was done before.
-        for (_, key, before) in LATER.iter().filter(|(id, ..)| *id == about.id) {
-            settings.set(about.id, key, *before)?;
+        for later in LATER.iter().filter(|later| later.method.is_none_or(|id| id == about.id)) {
+            if settings.get(later.key).is_some() {
+                settings.set(about.id, later.key, later.before)?;
+            }
         }
         self.fill(&mut settings, about.id, about.params, channel.settings)?;
         let mut repair = Settings::defaults(repair::PARAMS);
