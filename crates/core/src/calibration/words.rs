@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     fn found(limits: Vec<f64>) -> Calibration {
-        Calibration { resolution: 25.0, held: 0.537, objections: vec![0.0; limits.len()], limits }
+        Calibration { resolution: 25.0, held: 0.537, tails: 1.0, objections: vec![0.0; limits.len()], limits }
     }
 
     #[test]
