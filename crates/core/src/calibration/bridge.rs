@@ -145,4 +145,16 @@ mod tests {
             assert!(bridged(&y, &mut masked).iter().all(|d| *d == 0.0) && !masked.contains(&true));
         }
     }
+
+    #[test]
+    fn between_two_levels_there_is_no_patch() {
+        let level = |i: usize| match i {
+            0..45 => 0.0,
+            45..55 => 30.0,
+            _ => -30.0,
+        };
+        let y: Vec<f64> = (0..100).map(level).collect();
+        let mut masked = vec![false; 100];
+        assert!(bridged(&y, &mut masked).iter().all(|d| *d == 0.0) && !masked.contains(&true));
+    }
 }
