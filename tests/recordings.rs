@@ -233,11 +233,9 @@ fn originals_of_records_are_read_and_written_again() {
 #[test]
 fn originals_of_another_shape_are_refused() {
     let Some(folder) = folder() else { return };
-    for (name, what) in [("trainset_long_labels_head.csv", ":1: a long table")] {
-        let file = Source::File(folder.join("messy").join(name));
-        let message = load(&file, &LoadOptions::default()).unwrap_err().to_string();
-        assert!(message.contains(what), "{message}");
-    }
+    let file = Source::File(folder.join("messy").join("trainset_long_labels_head.csv"));
+    let message = load(&file, &LoadOptions::default()).unwrap_err().to_string();
+    assert!(message.contains(":1: a long table"), "{message}");
 }
 
 #[test]

@@ -50,7 +50,6 @@ pub(super) fn run(args: &SweepArgs, out: &mut dyn Write) -> Result<Ending> {
 
 /// The values that the arguments ask for: where they ask for nothing, the default of the parameter is among them.
 fn values(args: &SweepArgs, param: &Param) -> Result<Vec<f64>> {
-    #[expect(clippy::float_cmp, reason = "defaults that nobody touched")]
     let usual = args.param.is_none() && !args.linear && args.steps == STEPS && args.from == FROM && args.to == TO;
     if usual { Ok(usual_values(param)) } else { Ok(grid(args.from, args.to, args.steps, !args.linear)?) }
 }

@@ -82,6 +82,7 @@ pub enum Task {
 }
 
 /// What came of it.
+#[expect(clippy::large_enum_variant, reason = "there are few of them, and each is moved a few times")]
 #[derive(Debug)]
 pub enum News {
     /// A folder was listed.

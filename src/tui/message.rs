@@ -12,6 +12,7 @@ use crate::plot::Drawn;
 use crate::track::Standing;
 
 /// Something that happened.
+#[expect(clippy::large_enum_variant, reason = "there are few of them, and each is moved a few times")]
 #[derive(Debug)]
 pub enum Message {
     /// A key was pressed.
@@ -206,6 +207,7 @@ pub enum Fate {
 }
 
 /// Something that the outside has to do.
+#[expect(clippy::large_enum_variant, reason = "there are few of them, and each is moved a few times")]
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Effect {
     /// Judge the channel of this plan under the session as it is now.

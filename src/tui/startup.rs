@@ -12,25 +12,25 @@ use crate::track::{Series, Track, is_id, printable};
 /// Samples that are looked at for the plan that is shown first, of all channels together.
 const LOOKED_AT: usize = 100_000;
 
-/// The plan that is shown first: that of the channel whose wild points stand clearest, by the first samples of each;
-/// without any, of the first channel that is not, by its name, an id.
+/// The plan that is shown first: that of the channel in which the most samples stand clear of the noise, among the first
+/// samples of each; without any, of the first channel that is not, by its name, an id.
 pub(super) fn plan(session: &Session, track: &Track) -> usize {
     let first = session.plans.iter().position(|plan| !is_id(&plan.channel)).unwrap_or(0);
     let most = LOOKED_AT / session.plans.len().max(1);
-    let clearness = |plan: &Plan| clearness(plan, track, most).unwrap_or(0.0);
-    let clear = session.plans.iter().map(clearness).enumerate().filter(|(_, clear)| *clear > 0.0);
+    let clear = |plan: &Plan| clear(plan, track, most).unwrap_or(0);
+    let counts = session.plans.iter().map(clear).enumerate().filter(|(_, clear)| *clear > 0);
     // Of equals the first.
-    clear.rev().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(first, |(index, _)| index)
+    counts.rev().max_by_key(|(_, clear)| *clear).map_or(first, |(index, _)| index)
 }
 
-/// How clearly wild points stand out among the first samples of a channel; none where its floor is not from the record.
-fn clearness(plan: &Plan, track: &Track, most: usize) -> Option<f64> {
+/// How many of the first samples of a channel stand clear of the noise; none where its floor is not from the record.
+fn clear(plan: &Plan, track: &Track, most: usize) -> Option<usize> {
     let channel = track.channel(&plan.channel)?;
     let series = channel.series(&track.time);
     let n = series.len().min(most);
     let head = Series::new(series.t.get(..n)?, series.y.get(..n)?);
     let detection = Detection::of(Input::new(&head, None), &plan.setup, &Stop::never()).ok()?;
-    Some(detection.calibration?.clearness())
+    Some(detection.calibration?.clear())
 }
 
 /// What a user should know before trusting the record: the loader's notes or, without any, what it could not use.

@@ -93,14 +93,13 @@ impl Calibration {
         (!finite.is_empty()).then(|| median_in_place(&mut finite))
     }
 
-    /// How clearly the clearest wild point stands out: the largest objection over the limit of its sample. 0 where none
-    /// reaches its limit, and where more than one sample in 20 does, which is no longer a matter of single points.
+    /// How many samples stand clear of the noise: those with an objection of twice their limit. 0 where more than one
+    /// sample in 20 does, which is no longer a matter of single points.
     #[must_use]
-    pub fn clearness(&self) -> f64 {
+    pub fn clear(&self) -> usize {
         let known = self.objections.iter().zip(&self.limits).filter(|(_, limit)| limit.is_finite() && **limit > 0.0);
-        let wild: Vec<f64> = known.map(|(objection, limit)| objection / limit).filter(|ratio| *ratio >= 1.0).collect();
-        let few = wild.len() * 20 <= self.limits.len();
-        if few { wild.into_iter().fold(0.0, f64::max) } else { 0.0 }
+        let clear = known.filter(|(objection, limit)| **objection >= 2.0 * **limit).count();
+        if clear * 20 <= self.limits.len() { clear } else { 0 }
     }
 }
 

@@ -9,6 +9,7 @@ use super::super::message::{Effect, OutputKind};
 use crate::track::{FileLine, LoadOptions, Source};
 
 /// A dialog about files.
+#[expect(clippy::large_enum_variant, reason = "there are few of them, and each is moved a few times")]
 #[derive(Debug)]
 pub enum Dialog {
     /// A file to open is chosen.

@@ -28,6 +28,7 @@ pub(super) fn bounded_below(
     stop.check()?;
     let (k, doubt) = (multiplier(settings), settings.real(DOUBT.key));
     judged.scale.clear();
+    let changes = if doubt < 1.0 { changes(&judged) } else { Vec::new() };
     for i in 0..judged.verdict.len() {
         let expected = judged.expected[i];
         if judged.tolerance[i].is_nan() || expected.is_nan() {
@@ -42,7 +43,7 @@ pub(super) fn bounded_below(
             Verdict::Outlier if both_sides(tolerance) => Verdict::Outlier,
             Verdict::Outlier if reaches(distance, tolerance) => Verdict::Suspect,
             // What only one direction objects to: its expected value is that of the other one.
-            Verdict::Suspect if doubt >= 1.0 || begins(&judged.directions, i) => Verdict::Suspect,
+            Verdict::Suspect if doubt >= 1.0 || changes[i] => Verdict::Suspect,
             Verdict::Outlier | Verdict::Suspect | Verdict::Normal
                 if doubt < 1.0 && both_sides(doubt * objection.lower * tolerance) =>
             {
@@ -53,6 +54,26 @@ pub(super) fn bounded_below(
         };
     }
     Ok(judged)
+}
+
+/// The samples at which a real change begins, if it is one: of each run that is suspect, those with which an objection
+/// begins, or both ends where none does.
+fn changes(judged: &Judged) -> Vec<bool> {
+    let mut changes = vec![false; judged.verdict.len()];
+    let mut first = 0;
+    for run in judged.verdict.chunk_by(|a, b| (*a == Verdict::Suspect) == (*b == Verdict::Suspect)) {
+        let places = first..first + run.len();
+        first += run.len();
+        if run[0] != Verdict::Suspect {
+            continue;
+        }
+        let begun: Vec<usize> = places.clone().filter(|&i| begins(&judged.directions, i)).collect();
+        let ends = [places.start, places.end - 1];
+        for &i in if begun.is_empty() { &ends[..] } else { &begun } {
+            changes[i] = true;
+        }
+    }
+    changes
 }
 
 /// True for the first sample of a run to which a direction objects: the others tell an analyst nothing more.

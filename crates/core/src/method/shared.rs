@@ -46,7 +46,7 @@ pub const DOUBT: Param = Param {
            where both sides object; 1: only what the method itself doubts",
     unit: "",
     kind: Kind::Real { min: 0.1, max: 1.0, step: Step::Add(0.05) },
-    default: Value::Real(0.5),
+    default: Value::Real(0.6),
     paper: None,
     matters: doubt_matters,
 };

@@ -59,8 +59,11 @@ pub struct Format {
     /// What is known of a column by its name, from the first lines of the file.
     label: fn(&str, &str) -> Label,
     /// Makes a table of the records of the whole text, where its lines are no rows of one.
-    pub(crate) sheet: Option<fn(&[u8], Want) -> Result<Sheet>>,
+    pub(crate) sheet: Option<MakeSheet>,
 }
+
+/// Makes a table of the records of a text.
+pub(crate) type MakeSheet = fn(&[u8], Want) -> Result<Sheet>;
 
 /// What a format adds to nothing: a row of the registry names what is different.
 const PLAIN: Format = Format {

@@ -323,14 +323,12 @@ pub(crate) fn time_rank(name: &str) -> u8 {
         _ => &words[..],
     };
     let last = without_unit.last().unwrap_or(first);
+    let of_year = words.len() > 1
+        && words.iter().any(|w| matches!(w.as_str(), "year" | "yyyy"))
+        && words.iter().all(|w| YEARS.contains(&w.as_str()));
     if is_time(first) {
         4
-    } else if is_time(last) || is_date(first) || is_date(last) {
-        3
-    } else if words.len() > 1
-        && words.iter().any(|w| matches!(w.as_str(), "year" | "yyyy"))
-        && words.iter().all(|w| YEARS.contains(&w.as_str()))
-    {
+    } else if is_time(last) || is_date(first) || is_date(last) || of_year {
         3
     } else if name.eq_ignore_ascii_case("x_value")
         || words.iter().any(|w| is_time(w))

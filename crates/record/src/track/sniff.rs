@@ -106,7 +106,8 @@ fn digits_start(body: &[u8], line_end: u8) -> usize {
             return 0;
         }
     }
-    if best.1 > FEW && best.2 > 2 || best.2 > 2 && best.1 >= best.2 { best.0 } else { 0 }
+    let late = best.1 > FEW || best.1 >= best.2;
+    if late && best.2 > 2 { best.0 } else { 0 }
 }
 
 /// Calls `f` with the cells of each data record of the sample.

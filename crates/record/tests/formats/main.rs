@@ -1,6 +1,8 @@
 //! Every format of the registry: recognised without an option, understood, and written again with nothing but the repaired
 //! cell changed. The inputs are written here from public descriptions of the formats, two of each and more.
 
+#![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
+
 mod case;
 mod edges;
 mod gnss;

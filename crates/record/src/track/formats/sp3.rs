@@ -53,8 +53,8 @@ struct Reader {
 }
 
 fn sheet(body: &[u8], _: Want) -> Result<Sheet> {
-    let mut reader = Reader::default();
-    reader.sheet = Sheet { fields: fields(), timed: true, track: Some(1), fixed_width: true, ..Sheet::default() };
+    let sheet = Sheet { fields: fields(), timed: true, track: Some(1), fixed_width: true, ..Sheet::default() };
+    let mut reader = Reader { sheet, ..Reader::default() };
     for line in lines(body) {
         match line.all.bytes.first() {
             Some(b'*') => {
