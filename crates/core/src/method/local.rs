@@ -28,8 +28,7 @@ pub(super) fn bounded_below(
     stop.check()?;
     let (k, doubt) = (multiplier(settings), settings.real(DOUBT.key));
     judged.scale.clear();
-    let changes = if doubt < 1.0 { changes(&judged) } else { Vec::new() };
-    for i in 0..judged.verdict.len() {
+    for (i, change) in changes(&judged).into_iter().enumerate() {
         let expected = judged.expected[i];
         if judged.tolerance[i].is_nan() || expected.is_nan() {
             continue;
@@ -43,7 +42,7 @@ pub(super) fn bounded_below(
             Verdict::Outlier if both_sides(tolerance) => Verdict::Outlier,
             Verdict::Outlier if reaches(distance, tolerance) => Verdict::Suspect,
             // What only one direction objects to: its expected value is that of the other one.
-            Verdict::Suspect if doubt >= 1.0 || changes[i] => Verdict::Suspect,
+            Verdict::Suspect if doubt >= 1.0 || change => Verdict::Suspect,
             Verdict::Outlier | Verdict::Suspect | Verdict::Normal
                 if doubt < 1.0 && both_sides(doubt * objection.lower * tolerance) =>
             {
