@@ -44,12 +44,23 @@ pub(super) fn body(data: &[u8]) {
 /// One cell changed is one cell changed.
 fn changed(track: &wildpoint::track::Track, options: &LoadOptions) {
     let (row, channel) = (track.rows / 2, &track.channels[0]);
+    // What stands around a number stays, and may be no unit beside another number.
+    let mut old = String::new();
+    for_each_row(track, |at, cells| {
+        if at == row {
+            old = cells.text(channel.column).into_owned();
+        }
+        Ok(())
+    })
+    .unwrap();
+    if old.trim().parse::<f64>().is_err() {
+        return;
+    }
     let value = Some(-2.0);
     #[allow(clippy::cast_possible_truncation, reason = "a fuzzed file is short")]
     let cells = vec![CellChange { row: row as u32, column: channel.column, value }];
     let mut out = Vec::new();
     rewrite(track, &Changes { cells, rows: Vec::new() }, &mut out).unwrap();
-    let again_bytes = out.clone();
     let source = Source::BuiltIn { name: "fuzz-changed.csv", bytes: out.into() };
     // With so few rows one cell can change what the file is taken for; as it was understood it reads back.
     // A column may itself be called `#2`, and a name goes before a number.
@@ -69,12 +80,7 @@ fn changed(track: &wildpoint::track::Track, options: &LoadOptions) {
     }
     for (i, (a, b)) in again.channels[0].values.iter().zip(&channel.values).enumerate() {
         if i == row {
-            assert!(
-                *a == -2.0 || track.dialect.missing.iter().any(|m| m.contains('2')),
-                "row {i}: {a} of {:?}\n{:?}",
-                track.dialect,
-                String::from_utf8_lossy(&again_bytes)
-            );
+            assert!(*a == -2.0 || track.dialect.missing.iter().any(|m| m.contains('2')), "row {i}: {a}");
         } else {
             assert!(a == b || (a.is_nan() && b.is_nan()), "row {i}: {a} was {b}");
         }
