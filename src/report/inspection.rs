@@ -10,7 +10,7 @@ use crate::method::shared::MAX_GAP;
 use crate::param::Value;
 use crate::session::{Remedy, Suggestion, suggestions};
 use crate::stop::{Stop, Stopped};
-use crate::track::{ColumnKind, Delimiter, Encoding, FaultKind, Faults, Track, printable, without_signed_zero};
+use crate::track::{ColumnKind, Delimiter, Encoding, FaultKind, Faults, Series, Track, printable, without_signed_zero};
 
 /// The facts of a file.
 #[derive(Debug, Clone, Serialize)]
@@ -245,6 +245,20 @@ fn magnitude(x: f64) -> i32 {
     magnitude
 }
 
+/// Samples that are calibrated at most: facts of a large file shall not take minutes.
+const CALIBRATED: usize = 100_000;
+
+/// What a calibration of the channel says, in words; of a long one, of its first samples.
+fn calibrated(series: &Series<'_>, unit: &str) -> Vec<String> {
+    let n = series.len().min(CALIBRATED);
+    let head = Series::new(&series.t[..n], &series.y[..n]);
+    let mut words = calibrate(&head, &Stop::never()).map(|found| found.words(unit)).unwrap_or_default();
+    if n < series.len() {
+        words.push(format!("by the first {n} samples"));
+    }
+    words
+}
+
 fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts {
     let series = channel.series(&track.time);
     let max_gap = match MAX_GAP.default {
@@ -267,7 +281,7 @@ fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts
         range: low.zip(series.y.iter().copied().reduce(f64::max)),
         noise_difference: of_longest(noise::by_difference(&series, &segments, &stop)),
         noise_spline: of_longest(noise::by_spline(&series, &segments, &stop)),
-        calibration: calibrate(&series, &stop).map(|found| found.words(&channel.unit)).unwrap_or_default(),
+        calibration: calibrated(&series, &channel.unit),
         suggests: suggestions(channel).into_iter().map(in_words).collect(),
     }
 }
