@@ -89,7 +89,7 @@ fn plain_files_of_all_kinds() {
     let track = same("faults", faults.as_bytes()).expect("a track");
     assert!(track.faults.backward_times.count > 0 && track.faults.backward_times.first[0].0 == 29_002);
     let back = record(HEAD, "\n", |i| (i > 1000 && i % 3 > 0).then(|| format!("{},1,2", i % 50)));
-    assert!(same("mostly backward", back.as_bytes()).is_none(), "most rows would be lost");
+    assert!(same("mostly backward", back.as_bytes()).is_none_or(|track| !track.notes.is_empty()), "lost rows are told");
     let long = record(HEAD, "\n", |i| (i % 50_000 > 49_990).then(|| format!("{i}.123456789012,1,2")));
     same("times finer than nanoseconds", long.as_bytes()).expect("a track");
 }

@@ -94,6 +94,11 @@ fn documented(method: &dyn Method) -> Settings {
     if settings.get("floor").is_some() {
         settings.set_text(method.about().id, "floor", "auto").expect("a legal value");
     }
+    // The page as it was: the defaults are others now.
+    if method.about().id == "matched" {
+        settings.set_text("matched", "window", "31").expect("a legal value");
+        settings.set_text("matched", "repair_rule", "expected").expect("a legal value");
+    }
     settings
 }
 

@@ -20,8 +20,10 @@ fn rows(bench: &Bench) -> Vec<String> {
 
 #[test]
 fn a_flag_that_a_knob_takes_away_keeps_its_row_until_the_cursor_moves_on() {
-    let bench =
-        Bench::on("demo.csv", UNICODE_DARK).size((120, 40)).keys(":set Space floor Space auto Enter").keys("np");
+    let bench = Bench::on("demo.csv", UNICODE_DARK)
+        .size((120, 40))
+        .keys(":set Space floor Space auto Enter :set Space k Space 4 Enter")
+        .keys("np");
     let before = rows(&bench);
     assert_eq!(before[..5], ["61 ●", "91 ●", "200 ●", "222 ●", "239 ●"]);
     assert_eq!(before[5], "323 ●", "276 is a suspect from k = 3.9 down: {before:?}");
@@ -52,7 +54,9 @@ fn when_much_goes_at_once_the_flags_that_are_left_take_the_rows() {
 
 #[test]
 fn a_row_that_is_gone_can_be_clicked_and_stays_under_the_cursor() {
-    let bench = Bench::on("demo.csv", UNICODE_DARK).size((120, 40)).keys(":set Space floor Space auto Enter");
+    let bench = Bench::on("demo.csv", UNICODE_DARK)
+        .size((120, 40))
+        .keys(":set Space floor Space auto Enter :set Space k Space 4 Enter");
     let mut bench = bench.keys(",").keys(".");
     let at = bench.frame().lines().position(|line| line.contains("276   276.0")).unwrap();
     assert!(rows(&bench).contains(&"276 ·".to_owned()));

@@ -36,7 +36,8 @@ const WINDOW: Param = Param {
     unit: "samples",
     kind: Kind::Whole { min: 4, max: 1001, step: 2 },
     default: Value::Whole(401),
-    paper: None,
+    // What the program had before: the document names none.
+    paper: Some(Value::Whole(31)),
     matters: always,
 };
 

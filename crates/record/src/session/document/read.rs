@@ -466,7 +466,9 @@ fn value_of(param: &Param, value: &toml::Value) -> std::result::Result<Value, Co
         toml::Value::Array(list) => {
             numbers(list).map_or_else(|| Err(illegal(param, value)), |numbers| param.accept(Value::Numbers(numbers)))
         }
-        toml::Value::String(s) if words.contains(&s.as_str()) || param.takes_durations() => param.parse(s),
+        toml::Value::String(s) if words.contains(&s.as_str()) => param.parse(s),
+        // A number in quotes is none.
+        toml::Value::String(s) if param.takes_durations() && s.parse::<f64>().is_err() => param.parse(s),
         other => Err(illegal(param, other)),
     }
 }
