@@ -20,7 +20,7 @@ pub enum Quality {
 }
 
 impl Quality {
-    /// All of them, in the order of [`Scheme::codes`].
+    /// All of them, in the order of their codes in the tables.
     pub const ALL: [Self; 7] =
         [Self::Normal, Self::Unchecked, Self::Suspect, Self::Repaired, Self::Removed, Self::Filled, Self::Missing];
 }

@@ -49,7 +49,7 @@ impl Form {
 /// The time column: the one of the options, otherwise the one that looks most like a time; none for the sample number.
 ///
 /// # Errors
-/// [`Error::Usage`] for a name that is not there, and for a unit of times that are no numbers; [`Error::Input`] where the named column holds no times, and where
+/// [`crate::error::Error::Usage`] for a name that is not there, and for a unit of times that are no numbers; [`crate::error::Error::Input`] where the named column holds no times, and where
 /// day and month cannot be told apart.
 pub(super) fn choose(head: &Head, options: &LoadOptions, path: &Path) -> Result<Option<Timing>> {
     let chosen = match &options.time {
