@@ -115,17 +115,19 @@ fn the_end_of_input_ends_the_workbench_without_a_signal() {
     let mut program = Unread::start(false);
     let (mut reader, mut keys) = (program.master.try_clone_reader().unwrap(), program.master.take_writer().unwrap());
     let (mut screen, mut chunk) = (vt100::Parser::new(40.try_into().unwrap(), 120.try_into().unwrap(), 0), [0; 4096]);
-    let mut read_until = |wanted: &str| {
+    for (wanted, key) in [(" flagged", "a"), ("accepted row 61", "")] {
         while !screen.screen().contents().contains(wanted) {
             let read = reader.read(&mut chunk).unwrap();
             assert_ne!(read, 0, "the program has ended");
             screen.process(&chunk[..read]);
         }
-    };
-    read_until(" flagged");
-    keys.write_all(b"a").unwrap();
-    read_until("accepted row 61");
-    // All that is open on this side goes. Nothing more is drawn, so that no write fails.
+        keys.write_all(key.as_bytes()).unwrap();
+    }
+    // All that is open on this side goes, after the last frame: a write that fails would end the program too.
+    assert!(Unread::until(PATIENCE, || {
+        let before = program.written();
+        !Unread::until(Duration::from_millis(500), || program.written() > before)
+    }));
     let nobody = native_pty_system().openpty(PtySize::default()).unwrap().master;
     drop((reader, keys, std::mem::replace(&mut program.master, nobody)));
     assert_eq!(program.ends(), Some(129));

@@ -143,7 +143,11 @@ fn what_could_not_be_written_is_told_once_shown_meanwhile_and_written_when_it_ca
     let told = bench.errors.recv().unwrap();
     assert!(matches!(&told, Message::Journal(JournalNews::Failing(Error::Io { .. }))), "{told:?}");
     bench.take(told);
-    assert!(bench.model.toast.as_ref().is_some_and(|t| t.text.starts_with("changes are not journalled: ")));
+    let is_said =
+        |bench: &Bench| bench.model.toast.as_ref().is_some_and(|t| t.text.starts_with("changes are not journalled: "));
+    assert!(is_said(&bench));
+    bench.carry_out(vec![Effect::Analyse(0)]);
+    assert!(is_said(&bench), "no result takes it away");
     bench.keys("a");
     assert!(bench.model.not_journalled.is_some(), "whatever else is said");
     obstruct(folder.path(), false);

@@ -134,12 +134,11 @@ pub(super) fn arrange(model: &mut Model, plan: usize, mut drawn: Drawn) {
     state.results += 1;
     state.drawn = Some(Arc::new(drawn));
     state.stale = false;
-    state.error = None;
-    super::compare::refresh(model, plan);
-    // What stood in the way no longer does.
-    if model.toast.as_ref().is_some_and(|t| t.tone == Tone::Error) {
-        model.toast = None;
+    // What stood in the way of a result no longer does. Whatever else is said stays.
+    if let Some(error) = state.error.take() {
+        model.toast.take_if(|toast| toast.text == error);
     }
+    super::compare::refresh(model, plan);
     queue::arrange(model, plan);
     queue::stay(model, &in_sight);
 }

@@ -253,6 +253,8 @@ impl<'a> Careful<'a> {
             self.deeds.push("not journalled".into());
             self.waiting.insert(row, decision);
         } else {
+            // What was missing was written before this.
+            self.made.append(&mut self.waiting);
             self.made.insert(row, decision);
         }
     }
