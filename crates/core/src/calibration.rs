@@ -12,7 +12,8 @@
 //! 3. `background`: the 95 % quantile of the residuals of the neighbourhood: the limit rises where the noise does.
 //! 4. `threshold`: the multiple of it at which the residuals of this record end and wild points begin.
 //!
-//! Steps 2 to 4 run three times, each time without the samples found so far.
+//! Steps 2 to 4 run three times, each time without the samples found so far. A long record is calibrated so in `blocks`
+//! that stand for all of it.
 //!
 //! Before that, [`repeated`], [`stuck`] and [`wrap`] say which checks and which period a record asks for.
 
@@ -24,6 +25,7 @@ use crate::series::Series;
 use crate::stop::{Stop, Stopped};
 
 mod background;
+mod blocks;
 mod bridge;
 mod coast;
 pub mod repeated;
@@ -38,7 +40,7 @@ pub mod wrap;
 use background::background;
 use bridge::bridge;
 use coast::coast;
-use residual::residuals;
+use residual::{Residuals, outside};
 use resolution::resolution;
 pub use stretches::{local_interval, stretches};
 use threshold::{threshold, weight};
@@ -109,19 +111,23 @@ impl Calibration {
 /// [`Stopped`] as soon as nobody waits for the result any more.
 pub fn calibrate(series: &Series<'_>, stop: &Stop) -> Result<Calibration, Stopped> {
     let (t, y) = (series.t.as_ref(), series.y.as_ref());
-    let held = share_held(y);
-    let record =
-        Record { t, y, stretches: stretches(t, Some(MAX_GAP)), holds: held >= HOLDS, resolution: resolution(y) };
-    stop.check()?;
-    let mut masked = coarse_mask(&record, stop)?;
-    round(&record, &mut masked, Round::First, stop)?;
-    round(&record, &mut masked, Round::Further, stop)?;
-    let Limits { limits, tails } = round(&record, &mut masked, Round::Last, stop)?;
-    coast(&record, &limits, &mut masked, stop)?;
-    let bridged = bridge(&record, &limits, &mut masked, stop)?;
-    let mut objections = residual::outside(&record, &masked, stop)?;
+    let holds = share_held(y) >= HOLDS;
+    let record = Record { t, y, stretches: stretches(t, Some(MAX_GAP)), holds, resolution: resolution(y) };
+    if y.len() > blocks::LONG { blocks::calibrate(&record, stop) } else { calibrate_whole(&record, stop) }
+}
+
+/// Calibrates a record, every sample of it in full.
+fn calibrate_whole(record: &Record<'_>, stop: &Stop) -> Result<Calibration, Stopped> {
+    let mut masked = coarse_mask(record, stop)?;
+    let mut residuals = WINDOWS.map(Residuals::new);
+    round(record, &mut residuals, &mut masked, Round::First, stop)?;
+    round(record, &mut residuals, &mut masked, Round::Further, stop)?;
+    let Limits { limits, tails } = round(record, &mut residuals, &mut masked, Round::Last, stop)?;
+    coast(record, &limits, &mut masked, stop)?;
+    let bridged = bridge(record, &limits, &mut masked, stop)?;
+    let mut objections = outside(record, &masked, |_| true, stop)?;
     objections.iter_mut().zip(bridged).for_each(|(o, b)| *o = o.max(b));
-    Ok(Calibration { resolution: record.resolution, held, limits, tails, objections })
+    Ok(Calibration { resolution: record.resolution, held: share_held(record.y), limits, tails, objections })
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,9 +141,10 @@ enum Round {
 /// What both sides object to by a scale from the nearest neighbours, which isolated wild points hardly inflate.
 fn coarse_mask(record: &Record<'_>, stop: &Stop) -> Result<Vec<bool>, Stopped> {
     let nothing = vec![false; record.y.len()];
-    let near = residuals(record, &nothing, 3, stop)?;
-    let local = background(&near, &nothing, background::Span { half: 60, middle: 6 }, 0.5, stop)?;
-    let floor = (4.0 * quantile_of(&near, &nothing, 0.5)).max(STEPS * record.resolution);
+    let mut near = Residuals::new(3);
+    let near = near.update(record, &nothing, stop)?;
+    let local = background(near, &nothing, background::Span { half: 60, middle: 6 }, 0.5, stop)?;
+    let floor = (4.0 * quantile_of(near, &nothing, 0.5)).max(STEPS * record.resolution);
     let limits: Vec<f64> = local.iter().map(|scale| (5.5 * scale).max(floor)).collect();
     let mut masked = nothing;
     coast(record, &limits, &mut masked, stop)?;
@@ -152,7 +159,13 @@ struct Limits {
 }
 
 /// One round: limits under the mask, and the mask that they give.
-fn round(record: &Record<'_>, masked: &mut Vec<bool>, pass: Round, stop: &Stop) -> Result<Limits, Stopped> {
+fn round(
+    record: &Record<'_>,
+    residuals: &mut [Residuals; 2],
+    masked: &mut Vec<bool>,
+    pass: Round,
+    stop: &Stop,
+) -> Result<Limits, Stopped> {
     let n = record.y.len();
     let (wide, narrow) = (background::Span { half: 100, middle: 10 }, background::Span { half: 50, middle: 10 });
     let first = pass == Round::First;
@@ -160,30 +173,30 @@ fn round(record: &Record<'_>, masked: &mut Vec<bool>, pass: Round, stop: &Stop) 
     let mut least = vec![f64::INFINITY; n];
     let mut scores = vec![f64::INFINITY; n];
     let mut tails = 1.0_f64;
-    for (index, half) in WINDOWS.into_iter().enumerate() {
-        let r = residuals(record, masked, half, stop)?;
+    for (index, residuals) in residuals.iter_mut().enumerate() {
+        let r = residuals.update(record, masked, stop)?;
         // 3.4 medians-and-a-bit and 2 quantiles of 85 %: 2.9 deviations of normal noise either way.
-        let base = if first { 3.4 * quantile_of(&r, masked, 0.6) } else { 2.0 * quantile_of(&r, masked, 0.85) };
+        let base = if first { 3.4 * quantile_of(r, masked, 0.6) } else { 2.0 * quantile_of(r, masked, 0.85) };
         let mut base = base.max(lower);
         if base <= 0.0 {
             base = r.iter().copied().filter(|x| *x > 0.0).fold(f64::INFINITY, f64::min);
         }
         let limit: Vec<f64> = if first {
-            let local = background(&r, masked, wide, 0.6, stop)?;
+            let local = background(r, masked, wide, 0.6, stop)?;
             local.iter().map(|x| base.max(1.9 * 2.4 * x)).collect()
         } else {
-            let (far, near) = (background(&r, masked, wide, 0.95, stop)?, background(&r, masked, narrow, 0.95, stop)?);
+            let (far, near) = (background(r, masked, wide, 0.95, stop)?, background(r, masked, narrow, 0.95, stop)?);
             far.iter().zip(&near).map(|(far, near)| base.max(1.3 * far).max(1.9 * near)).collect()
         };
         if index == 0 && !first {
-            let local = background(&r, masked, wide, 0.9, stop)?;
-            tails = threshold::tails(&r, masked, &local, (0.3 * base, record.resolution));
+            let local = background(r, masked, wide, 0.9, stop)?;
+            tails = threshold::tails(r, masked, &local, (0.3 * base, record.resolution));
         }
-        scores.iter_mut().zip(&r).zip(&limit).for_each(|((s, r), l)| *s = s.min(r / l));
+        scores.iter_mut().zip(r).zip(&limit).for_each(|((s, r), l)| *s = s.min(r / l));
         least.iter_mut().zip(&limit).for_each(|(all, l)| *all = all.min(*l));
     }
     if !first {
-        let outside = residual::outside(record, masked, stop)?;
+        let outside = outside(record, masked, |_| true, stop)?;
         scores.iter_mut().zip(&outside).zip(&least).for_each(|((s, o), l)| *s = s.min(o / (0.5 * l)));
     }
     let times = threshold(&scores, weight(tails));

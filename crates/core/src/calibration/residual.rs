@@ -1,5 +1,7 @@
 //! How far samples lie from what their neighbours let expect.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::Record;
@@ -12,46 +14,99 @@ use crate::stop::{Stop, Stopped};
 const PIECE: usize = 2048;
 
 /// The distance of each sample from the median of the interpolations between the neighbours at equal places before and
-/// after it, `half` on each side, without the masked; then once more of what is left, which takes curvature off.
+/// after it, so many on each side, without the masked; then once more of what is left, which takes curvature off.
 /// Nothing is carried over a gap.
-pub(super) fn residuals(record: &Record<'_>, masked: &[bool], half: usize, stop: &Stop) -> Result<Vec<f64>, Stopped> {
-    let mut all = vec![0.0; record.y.len()];
-    for stretch in &record.stretches {
-        let (t, y) = (&record.t[stretch.clone()], &record.y[stretch.clone()]);
-        let masked = &masked[stretch.clone()];
-        let once = each(y.len(), stop, |i, near| {
+pub(super) struct Residuals {
+    /// Neighbours on each side.
+    half: usize,
+    /// What was masked when they were computed; nothing before.
+    masked: Vec<bool>,
+    /// The distance from the interpolations, with its sign.
+    once: Vec<f64>,
+    /// What is left of it when curvature is taken off, without a sign.
+    pub(super) left: Vec<f64>,
+}
+
+impl Residuals {
+    pub(super) fn new(half: usize) -> Self {
+        Self { half, masked: Vec::new(), once: Vec::new(), left: Vec::new() }
+    }
+
+    /// Computes them under this mask: anew where it differs, within reach, from the mask before.
+    pub(super) fn update(&mut self, record: &Record<'_>, masked: &[bool], stop: &Stop) -> Result<&[f64], Stopped> {
+        let n = record.y.len();
+        (self.once.resize(n, 0.0), self.left.resize(n, 0.0));
+        // Near an end an interpolation reaches twice as far as elsewhere.
+        let once = near_changes(&self.masked, masked, 2 * self.half);
+        let left = near_changes(&self.masked, masked, 3 * self.half);
+        for stretch in &record.stretches {
+            self.update_stretch(record, stretch, masked, (&once, &left), stop)?;
+        }
+        self.masked.clear();
+        self.masked.extend_from_slice(masked);
+        Ok(&self.left)
+    }
+
+    fn update_stretch(
+        &mut self,
+        record: &Record<'_>,
+        stretch: &Range<usize>,
+        masked: &[bool],
+        (stale_once, stale_left): (&[bool], &[bool]),
+        stop: &Stop,
+    ) -> Result<(), Stopped> {
+        let own = || stretch.clone();
+        let (t, y, masked, half) = (&record.t[own()], &record.y[own()], &masked[own()], self.half);
+        each(&mut self.once[own()], &stale_once[own()], stop, |i, near| {
             interpolations(t, y, masked, (i, half), near);
             if near.is_empty() { 0.0 } else { y[i] - median_in_place(near) }
         })?;
-        let twice = each(y.len(), stop, |i, near| {
+        let once = &self.once[own()];
+        each(&mut self.left[own()], &stale_left[own()], stop, |i, near| {
             let reach = i.min(y.len() - 1 - i).min(half).max(2);
             let around = i.saturating_sub(reach)..y.len().min(i + reach + 1);
             near.clear();
             near.extend(around.filter(|j| *j != i && !masked[*j]).map(|j| once[j]));
             (once[i] - if near.len() < 3 { 0.0 } else { median_in_place(near) }).abs()
-        })?;
-        all[stretch.clone()].copy_from_slice(&twice);
+        })
     }
-    Ok(all)
 }
 
-/// `value(i, scratch)` for each of `0 .. n`, in parallel.
-fn each(n: usize, stop: &Stop, value: impl Fn(usize, &mut Vec<f64>) -> f64 + Sync) -> Result<Vec<f64>, Stopped> {
-    let mut all = vec![0.0; n];
-    all.par_chunks_mut(PIECE).enumerate().try_for_each(|(piece, out)| {
+/// Which samples lie within `reach` of one whose mask has changed; all where there was none before.
+fn near_changes(before: &[bool], now: &[bool], reach: usize) -> Vec<bool> {
+    if before.len() != now.len() {
+        return vec![true; now.len()];
+    }
+    let mut near = vec![false; now.len()];
+    let mut done = 0;
+    for i in (0..now.len()).filter(|i| before[*i] != now[*i]) {
+        let end = now.len().min(i + reach + 1);
+        near[i.saturating_sub(reach).max(done)..end].fill(true);
+        done = end;
+    }
+    near
+}
+
+/// `value(i, scratch)` for each of the samples that are `stale`, in parallel.
+fn each(
+    all: &mut [f64],
+    stale: &[bool],
+    stop: &Stop,
+    value: impl Fn(usize, &mut Vec<f64>) -> f64 + Sync,
+) -> Result<(), Stopped> {
+    all.par_chunks_mut(PIECE).zip(stale.par_chunks(PIECE)).enumerate().try_for_each(|(piece, (out, stale))| {
         stop.check()?;
         let mut scratch = Vec::with_capacity(64);
-        for (k, out) in out.iter_mut().enumerate() {
+        for (k, (out, _)) in out.iter_mut().zip(stale).enumerate().filter(|(_, (_, stale))| **stale) {
             *out = value(piece * PIECE + k, &mut scratch);
         }
         Ok(())
-    })?;
-    Ok(all)
+    })
 }
 
 /// Values at sample `i` of the lines through one neighbour before and one after it, at equal places; near an end
 /// through pairs of whatever unmasked neighbours there are.
-fn interpolations(t: &[f64], y: &[f64], masked: &[bool], (i, half): (usize, usize), found: &mut Vec<f64>) {
+pub(super) fn interpolations(t: &[f64], y: &[f64], masked: &[bool], (i, half): (usize, usize), found: &mut Vec<f64>) {
     found.clear();
     let between = |a: usize, b: usize| y[a] + (t[i] - t[a]) / (t[b] - t[a]) * (y[b] - y[a]);
     for j in 1..=half.min(i).min(y.len() - 1 - i) {
@@ -82,8 +137,13 @@ const GROSS: f64 = 10.0;
 
 /// How far each sample lies outside of all that the unmasked neighbours of either side let expect: lines through the
 /// nearest two and five of a side, and the nearest value where the record holds values. 0 inside; a tenth of it where
-/// only one side can object.
-pub(super) fn outside(record: &Record<'_>, masked: &[bool], stop: &Stop) -> Result<Vec<f64>, Stopped> {
+/// only one side can object, and 0 for what is not `asked`.
+pub(super) fn outside(
+    record: &Record<'_>,
+    masked: &[bool],
+    asked: impl Fn(usize) -> bool + Sync,
+    stop: &Stop,
+) -> Result<Vec<f64>, Stopped> {
     let mut all = vec![0.0; record.y.len()];
     for stretch in &record.stretches {
         let own: Vec<usize> = stretch.clone().filter(|i| !masked[*i]).collect();
@@ -94,7 +154,10 @@ pub(super) fn outside(record: &Record<'_>, masked: &[bool], stop: &Stop) -> Resu
         all[stretch.clone()].par_chunks_mut(PIECE).enumerate().try_for_each(|(piece, out)| {
             stop.check()?;
             for (k, out) in out.iter_mut().enumerate() {
-                *out = outside_of(record, &own, first + piece * PIECE + k);
+                let i = first + piece * PIECE + k;
+                if asked(i) {
+                    *out = outside_of(record, &own, i);
+                }
             }
             Ok(())
         })?;

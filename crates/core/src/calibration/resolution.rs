@@ -3,16 +3,22 @@
 /// A step counts when at least this share of all steps other than 0 has it.
 const SHARE: f64 = 0.05;
 
+/// At most so many steps are looked at, spread over the record.
+const ENOUGH: usize = 100_000;
+
 /// The smallest step between neighbours that many share, so that neither a rounded decimal nor a fill value decides
 /// it; 0 where there is none.
 pub(super) fn resolution(y: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = y.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|d| *d > 0.0 && d.is_finite()).collect();
+    let every = y.len().div_ceil(ENOUGH);
+    let step = |w: &[f64]| (w[1] - w[0]).abs();
+    let mut steps: Vec<f64> =
+        y.windows(2).step_by(every.max(1)).map(step).filter(|d| *d > 0.0 && d.is_finite()).collect();
     if steps.is_empty() {
         return 0.0;
     }
     steps.sort_unstable_by(f64::total_cmp);
     // What subtraction leaves of equal steps between values of the usual size.
-    let mut sizes: Vec<f64> = y.iter().map(|y| y.abs()).collect();
+    let mut sizes: Vec<f64> = y.iter().step_by(every).map(|y| y.abs()).collect();
     let rounding = 16.0 * f64::EPSILON * super::quantile(&mut sizes, 0.95);
     #[expect(
         clippy::cast_precision_loss,
