@@ -1,13 +1,15 @@
 //! Cost of every method at its defaults, of the jobs that have a budget, and of the sliding ones at other windows: one
 //! channel, one segment, a parabola with unit noise and 1 % outliers. `cargo bench --bench methods -- hampel` measures
-//! one, `-- budget` those with a budget. The record has been loaded: its nominal interval is known.
+//! one, `-- budget` those with a budget. The record has been loaded and calibrated, as for every result but the first;
+//! `-- calibration` measures that.
 
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use wildpoint::method::{METHODS, Method, Rate, judge_channel};
+use wildpoint::calibration::{Calibration, calibrate};
+use wildpoint::method::{METHODS, Method, Rate, judge_segments, noise, segments};
 use wildpoint::param::{Settings, Value};
 use wildpoint::repair::{self, Damage};
 use wildpoint::stop::Stop;
@@ -17,21 +19,55 @@ mod record;
 
 use record::Record;
 
-fn judge(record: &Record, series: &Series<'_>, method: &dyn Method, settings: &Settings) -> usize {
-    let rate = Rate { t: &record.t, y: &record.rate };
-    judge_channel(method, series, Some(rate), settings, &Stop::never()).map_or(0, |j| j.verdict.len())
+/// A channel that has been calibrated.
+struct Channel<'a> {
+    record: &'a Record,
+    series: Series<'a>,
+    calibration: Calibration,
+}
+
+impl<'a> Channel<'a> {
+    fn new(record: &'a Record) -> Self {
+        let series = Series::new(&record.t, &record.y);
+        let calibration = calibrate(&series, &Stop::never()).unwrap_or_else(|e| panic!("{e:?}"));
+        Self { record, series, calibration }
+    }
+
+    /// How many samples the method has judged.
+    fn judge(&self, method: &dyn Method, settings: &Settings) -> usize {
+        let (series, stop) = (&self.series, Stop::never());
+        let rate = Rate { t: &self.record.t, y: &self.record.rate };
+        let judged = segments(series, settings, &stop).and_then(|ranges| {
+            let scales = noise::scales_by(series, &ranges, settings, Some(&self.calibration), &stop)?;
+            judge_segments(method, series, (&ranges, &scales), Some(rate), settings, &stop)
+        });
+        judged.map_or(0, |j| j.verdict.len())
+    }
+}
+
+fn calibrations(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("calibration");
+    for n in [1_000_000, 10_000_000] {
+        let record = Record::new(n, 1);
+        let series = Series::new(&record.t, &record.y);
+        group.throughput(Throughput::Elements(n as u64));
+        group.bench_function(BenchmarkId::new("of a channel", n), |b| {
+            b.iter(|| calibrate(black_box(&series), &Stop::never()).map_or(0, |c| c.limits.len()));
+        });
+    }
+    group.finish();
 }
 
 fn defaults(criterion: &mut Criterion) {
     for n in [100_000, 1_000_000] {
         let record = Record::new(n, 1);
-        let series = Series::new(&record.t, &record.y);
+        let channel = Channel::new(&record);
         let mut group = criterion.benchmark_group("method at its defaults");
         group.throughput(Throughput::Elements(n as u64));
         for method in METHODS {
             let settings = Settings::defaults(method.about().params);
             group.bench_function(BenchmarkId::new(method.about().id, n), |b| {
-                b.iter(|| black_box(judge(&record, &series, *method, &settings)));
+                b.iter(|| black_box(channel.judge(*method, &settings)));
             });
         }
         group.finish();
@@ -57,7 +93,7 @@ const BUDGETS: &[(&str, &str, Changes, &str)] = &[
 fn budgets(criterion: &mut Criterion) {
     let n = 1_000_000;
     let record = Record::new(n, 1);
-    let series = Series::new(&record.t, &record.y);
+    let channel = Channel::new(&record);
     let mut group = criterion.benchmark_group("budget");
     group.throughput(Throughput::Elements(n as u64));
     for (id, window, changes, name) in BUDGETS {
@@ -70,7 +106,7 @@ fn budgets(criterion: &mut Criterion) {
             settings.set_text(id, key, value).unwrap_or_else(|e| panic!("{id}: {e}"));
         }
         group.bench_function(BenchmarkId::new(*name, n), |b| {
-            b.iter(|| black_box(judge(&record, &series, *method, &settings)));
+            b.iter(|| black_box(channel.judge(*method, &settings)));
         });
     }
     infill(&mut group, &record);
@@ -97,13 +133,13 @@ fn infill(group: &mut BenchmarkGroup<'_, WallTime>, record: &Record) {
 fn long(criterion: &mut Criterion) {
     let n = 10_000_000;
     let record = Record::new(n, 1);
-    let series = Series::new(&record.t, &record.y);
+    let channel = Channel::new(&record);
     let mut group = criterion.benchmark_group("method at its defaults");
     group.throughput(Throughput::Elements(n as u64));
     for method in METHODS.iter().filter(|m| ["hampel", "mean-window", "five-point"].contains(&m.about().id)) {
         let settings = Settings::defaults(method.about().params);
         group.bench_function(BenchmarkId::new(method.about().id, n), |b| {
-            b.iter(|| black_box(judge(&record, &series, *method, &settings)));
+            b.iter(|| black_box(channel.judge(*method, &settings)));
         });
     }
     group.finish();
@@ -112,7 +148,7 @@ fn long(criterion: &mut Criterion) {
 fn windows(criterion: &mut Criterion) {
     let n = 1_000_000;
     let record = Record::new(n, 1);
-    let series = Series::new(&record.t, &record.y);
+    let channel = Channel::new(&record);
     let mut group = criterion.benchmark_group("window");
     group.throughput(Throughput::Elements(n as u64));
     for method in METHODS.iter().filter(|m| m.about().params.iter().any(|p| p.key == "window")) {
@@ -122,7 +158,7 @@ fn windows(criterion: &mut Criterion) {
             // Some windows end earlier; those lengths are left out.
             if settings.set(id, "window", Value::Whole(window)).is_ok() {
                 group.bench_function(BenchmarkId::new(id, window), |b| {
-                    b.iter(|| black_box(judge(&record, &series, *method, &settings)));
+                    b.iter(|| black_box(channel.judge(*method, &settings)));
                 });
             }
         }
@@ -136,6 +172,6 @@ criterion_group! {
         .sample_size(10)
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_secs(1));
-    targets = defaults, budgets, windows, long
+    targets = calibrations, defaults, budgets, windows, long
 }
 criterion_main!(benches);

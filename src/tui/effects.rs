@@ -206,3 +206,26 @@ fn sessions(model: &Model) -> Vec<&Path> {
     let unchanged = offered.iter().filter(|found| !found.session_changed).filter_map(|found| found.session.as_deref());
     model.file.as_deref().into_iter().chain(unchanged).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::plot::Glyphs;
+    use super::super::theme::Theme;
+    use super::*;
+    use crate::session::{Session, Setup};
+    use crate::track::{LoadOptions, Source, load};
+
+    #[test]
+    fn advice_is_visible_where_a_panel_shows_it_and_everything_else_always() {
+        let track = Arc::new(load(&Source::demo(), &LoadOptions::default()).unwrap());
+        let session = Session::new(&track, LoadOptions::default(), &Setup::standard());
+        let mut model = Model::new(track, session, None, Theme::mono(), Glyphs::Unicode);
+        let polling = Message::Polling { generation: 0, done: 1 };
+        for (size, with_parameters) in [((120, 40), true), ((80, 24), false)] {
+            model.size = size;
+            assert_eq!(layout::arrange(&model, model.screen()).unwrap().parameters.is_some(), with_parameters);
+            assert_eq!(is_visible(&model, &Message::NoAdvice), with_parameters);
+            assert!(is_visible(&model, &polling));
+        }
+    }
+}
