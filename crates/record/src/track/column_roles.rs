@@ -82,7 +82,10 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
     if options.rules == Rules::Second {
         aside::keep_one_channel(&mut unread, &is_time);
     }
-    let truths: Vec<bool> = (0..head.names.len()).map(|c| holds_truths(head, c, truth == Some(c))).collect();
+    let words = |c: usize| options.rules == Rules::Second || truth == Some(c);
+    let truths: Vec<bool> =
+        (0..head.names.len()).map(|c| words(c) && holds_truths(head, c, truth == Some(c))).collect();
+    let named = |c: usize| is_truth(&head.names[c], options.rules);
     let wanted = |c: usize| {
         if is_time(c) || track == Some(c) {
             false
@@ -91,9 +94,9 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
         } else if channels.is_empty() {
             matches!(unread[c], ColumnKind::Number | ColumnKind::Empty)
                 || !late[c].is_empty()
-                || (truths[c] && names::is_truth(&head.names[c]))
+                || (truths[c] && named(c))
         } else {
-            channels.contains(&c) || (names::is_truth(&head.names[c]) && (truths[c] || unread[c] == ColumnKind::Number))
+            channels.contains(&c) || (named(c) && (truths[c] || unread[c] == ColumnKind::Number))
         }
     };
     let mut next = 0;
@@ -130,13 +133,21 @@ impl Roles {
             if text { ColumnKind::Text } else { ColumnKind::Empty }
         } else if numbers.unreadable.count > numbers.present && !told {
             ColumnKind::Text
-        } else if !told && names::is_truth(name) && numbers.unreadable.count == 0 && all_bits() {
+        } else if !told && is_truth(name, self.rules) && numbers.unreadable.count == 0 && all_bits() {
             ColumnKind::Truth
         } else if self.rules == Rules::Second && !told {
             aside::by_values(name, &numbers.values, self.rows).map_or(ColumnKind::Number, ColumnKind::Aside)
         } else {
             ColumnKind::Number
         }
+    }
+}
+
+/// True for the name of a column of truths.
+fn is_truth(name: &str, rules: Rules) -> bool {
+    match rules {
+        Rules::First => names::earlier::is_truth(name),
+        Rules::Second => names::is_truth(name),
     }
 }
 

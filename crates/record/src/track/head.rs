@@ -14,6 +14,8 @@ use super::view::View;
 use super::{Aside, LoadOptions, Rules, names, printable};
 use crate::error::{Error, Result};
 
+mod earlier;
+
 /// Rows that are looked at.
 const SAMPLE: usize = 200;
 /// Lines that may stand before the data, besides comments, where the first lines tell enough.
@@ -113,7 +115,11 @@ impl Head {
     /// a table that is not there.
     pub(crate) fn of(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
         let (layout, decimal_comma) = sniff(text.body(), options);
-        let reading = Reading::new(decimal_comma, &options.missing);
+        let reading = Reading::new(decimal_comma, &options.missing).by(options.rules);
+        // Sessions by the first rules that say where the table stands are later than those rules.
+        if options.rules == Rules::First && !options.tells_table() {
+            return earlier::head(text, (layout, reading), options, path);
+        }
         let mut of = Lines { body: text.body(), layout, encoding: text.encoding, skip: options.skip.unwrap_or(0) };
         let mut seen = Seen::of(&of, &reading, options).map_err(|e| no_table(path, e))?;
         let Some(first) = seen.chosen(options)?.map(|(_, t)| t.first) else {
@@ -188,7 +194,7 @@ impl Head {
             fixed_width,
             asides: Vec::new(),
             said: seen.said(number, first, of.layout.mark, options),
-            complete: seen.complete && end.is_none(),
+            complete: seen.complete && end.is_none() && rows.len() == SAMPLE,
         })
     }
 
@@ -210,7 +216,7 @@ impl Head {
     /// True when the head of `part`, the first whole lines of a longer text, is that of the whole text: nothing of what
     /// it was told from lay near the end.
     pub(crate) fn needs_no_more(&self, part: &[u8]) -> bool {
-        self.complete && self.sample.len() == SAMPLE && part.len() > self.data_start + SAMPLE_BYTES
+        self.complete && part.len() > self.data_start + SAMPLE_BYTES
     }
 
     /// The sampled cells of a column; rows with another number of cells than usual are left out while there are

@@ -41,6 +41,8 @@ pub(crate) struct Timing {
     pub(crate) of_week: bool,
     /// True for minutes and seconds alone.
     pub(crate) of_hour: bool,
+    /// True where the time of day `24:00` after a date is none.
+    pub(crate) below_24: bool,
 }
 
 /// A time as read: nanoseconds, or a number of seconds that has no exact nanoseconds.
@@ -58,6 +60,7 @@ impl Timing {
             said: Vec::new(),
             of_week: false,
             of_hour: false,
+            below_24: false,
         }
     }
 
@@ -117,7 +120,8 @@ impl Timing {
                 }
             }
             TimeFormat::Iso | TimeFormat::YearLast { .. } | TimeFormat::Clock if self.zone.is_none() => {
-                calendar(&self.format, single()).map(Count::Exact)
+                let told = calendar(&self.format, single())?;
+                (!self.below_24 || !timestamp::ends_a_day(single())).then_some(Count::Exact(told))
             }
             _ => self.other(&cell, decimal_comma).map(Count::Exact),
         }
