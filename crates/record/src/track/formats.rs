@@ -19,6 +19,7 @@ mod dwd;
 mod eddypro;
 mod exo;
 mod fluxnet;
+mod gnss_logger;
 mod hobo;
 mod iaga;
 mod kiwis;
@@ -114,7 +115,7 @@ pub(crate) struct Label {
 }
 
 /// All of them, in the order in which they are tried.
-pub static FORMATS: [Format; 32] = [
+pub static FORMATS: [Format; 33] = [
     cnv::FORMAT,
     oem::FORMAT,
     stk::FORMAT,
@@ -141,6 +142,7 @@ pub static FORMATS: [Format; 32] = [
     lvm::FORMAT,
     zrxp::FORMAT,
     tmy3::FORMAT,
+    gnss_logger::FORMAT,
     nmea::FORMAT,
     crd::FORMAT,
     tdm::FORMAT,
