@@ -191,6 +191,8 @@ pub struct RowsAt {
     pub(crate) repeats: Vec<Vec<u8>>,
     /// What comments begin with, besides `#`, `%` and `//`.
     pub(crate) mark: Option<tokens::Mark>,
+    /// The format of the file, where it has no place for columns beside its own.
+    pub(crate) closed: Option<&'static Format>,
     /// In a table that a format makes of a text: the lines of the text where its first rows begin.
     pub(crate) made_of: Vec<u64>,
 }

@@ -11,7 +11,7 @@ use super::table::{Heading, Line, Lines, MOST_COLUMNS, NoTable, Table, heading, 
 use super::text::Text;
 use super::tokens::{Layout, Mark, OpenQuote};
 use super::view::View;
-use super::{Aside, LoadOptions, Rules, names, printable};
+use super::{Aside, Format, LoadOptions, Rules, Zero, names, printable};
 use crate::error::{Error, Result};
 
 mod earlier;
@@ -70,6 +70,10 @@ pub(crate) struct Head {
     pub(crate) fixed_width: bool,
     /// For each column, why it is no channel, as far as the format of the file tells.
     pub(crate) asides: Vec<Option<Aside>>,
+    /// The format of the file, where it has no place for other columns.
+    pub(crate) closed: Option<&'static Format>,
+    /// What the times of the file are counted in, in nanoseconds, and from when, as far as its format tells.
+    pub(crate) counted: Option<(i64, Zero)>,
     /// What was recognised that a user may want to correct.
     pub(crate) said: Vec<String>,
     /// True when the first lines were enough to tell all.
@@ -193,6 +197,8 @@ impl Head {
             styles,
             fixed_width,
             asides: Vec::new(),
+            closed: None,
+            counted: None,
             said: seen.said(number, first, of.layout.mark, options),
             complete: seen.complete && end.is_none() && rows.len() == SAMPLE,
         })
@@ -210,6 +216,8 @@ impl Head {
             }
         });
         self.asides = labels.into_iter().map(|label| label.aside).collect();
+        self.counted = known.counted;
+        self.closed = known.closed(self.header_at.is_some());
         self.said.extend(known.said.iter().cloned());
     }
 

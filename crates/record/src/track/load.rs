@@ -302,6 +302,12 @@ impl Understood {
             mended = moments.mended(about);
         }
         track.time.newest_first = mended.newest_first;
+        if mended.set_back > 0 && !mended.newest_first && track.time.is_calendar() {
+            track.notes.push(format!(
+                "times begin again an hour earlier ({}), as clocks do that are set back: --time-zone tells both hours apart",
+                times(mended.set_back)
+            ));
+        }
         if mended.newest_first {
             track.notes.push("the newest row stands first: the record is read from its end".into());
         }
@@ -333,6 +339,7 @@ impl Understood {
             units: head.units_at,
             repeats: head.repeats.clone(),
             mark: head.layout.mark,
+            closed: head.closed,
             made_of: self.made_of.clone(),
         };
         Dialect {
@@ -381,7 +388,10 @@ fn columns_of(
                 "choose another channel, or tell what means \"no value\" in it",
             ));
         }
-        Ok(Column { name: name.clone(), unit: head.units[index].clone(), kind, missing: body.missing[index] })
+        // Texts that could have stood where numbers had not begun are values of a column of texts.
+        let texts = numbers.filter(|_| kind == ColumnKind::Text).map_or(0, |n| n.late + n.unreadable.count);
+        let missing = body.missing[index] - texts.min(body.missing[index]);
+        Ok(Column { name: name.clone(), unit: head.units[index].clone(), kind, missing })
     };
     let mut columns = (0..head.names.len()).map(column).collect::<Result<Vec<_>>>()?;
     if options.channels.is_empty() {

@@ -96,6 +96,8 @@ fn of_lines(found: Found<'_>, (layout, reading): (Layout, Reading)) -> Head {
         styles: vec![None; width],
         fixed_width: false,
         asides: Vec::new(),
+        closed: None,
+        counted: None,
         said: Vec::new(),
         complete: false,
     }
@@ -175,7 +177,8 @@ mod tests {
 
     #[test]
     fn cells_units_and_times_are_those_of_the_first_rules() {
-        let text = "time,age_day,is_outlier,w\n2021-03-04 23:00,1,0,5 g\n2021-03-04 24:00,2,1,6 g\n2021-03-05 01:00,3,0,7 g\n";
+        let text =
+            "time,age_day,is_outlier,w\n2021-03-04 23:00,1,0,5 g\n2021-03-04 24:00,2,1,6 g\n2021-03-05 01:00,3,0,7 g\n";
         let earlier = loaded(text, Rules::First);
         let kinds: Vec<ColumnKind> = earlier.columns.iter().map(|c| c.kind).collect();
         use ColumnKind::{Number, Text, Time};
