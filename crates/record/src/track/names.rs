@@ -279,7 +279,7 @@ pub fn is_id(name: &str) -> bool {
 
 /// True for names of stations and devices in other spellings: `STATIONS_ID`, `MMSI`, `device_id`.
 pub(crate) fn is_id_name(name: &str) -> bool {
-    const MORE: [&str; 22] = [
+    const MORE: [&str; 24] = [
         "stations",
         "stationid",
         "stationsid",
@@ -301,7 +301,9 @@ pub(crate) fn is_id_name(name: &str) -> bool {
         "mac",
         "hex",
         "icao",
+        "icao24",
         "ident",
+        "squawk",
     ];
     let words = words(name);
     let known = |w: &&str| is_id_word(w) || MORE.iter().any(|m| w.eq_ignore_ascii_case(m));

@@ -53,7 +53,7 @@ fn is_time_like(head: &Head, column: usize, name: &str, one_way: bool, timing: O
 }
 
 /// What a column is by all of its values.
-pub(super) fn by_values(name: &str, values: &[f64], _sampled: usize) -> Option<Aside> {
+pub(super) fn by_values(name: &str, values: &[f64]) -> Option<Aside> {
     let mut seen: Vec<f64> = Vec::new();
     let mut count = 0;
     for value in values.iter().filter(|v| !v.is_nan()) {
@@ -66,7 +66,8 @@ pub(super) fn by_values(name: &str, values: &[f64], _sampled: usize) -> Option<A
         }
     }
     if count < LEAST {
-        return None;
+        // A setting that stands in the first row alone.
+        return (values.len() >= LEAST && seen.len() == 1 && count * 10 <= values.len()).then_some(Aside::Constant);
     }
     match seen.as_slice() {
         [_] => Some(Aside::Constant),
@@ -183,7 +184,32 @@ fn is_quality(name: &str) -> bool {
     is_flag(name)
         || has_word(
             name,
-            &["quality", "qc", "qa", "qf", "qn", "qual", "status", "fix", "qcflag", "qflag", "eflag", "mode", "code"],
+            &[
+                "quality",
+                "qc",
+                "qa",
+                "qf",
+                "qn",
+                "qual",
+                "status",
+                "fix",
+                "qcflag",
+                "qflag",
+                "eflag",
+                "mode",
+                "code",
+                "güte",
+                "qualität",
+                "qualitätsbyte",
+                "qualité",
+                "calidad",
+                "qualidade",
+                "qualità",
+                "kwaliteit",
+                "jakości",
+                "jakość",
+                "kvalitet",
+            ],
         )
         || name == "Q"
 }
