@@ -254,7 +254,10 @@ fn undecided(head: &Head, column: usize, path: &Path) -> Error {
             printable(&head.names[column]),
             printable(cells.first().unwrap_or(&""))
         ),
-        help: "say which (--dates day-first or --dates month-first), choose another time column, or write dates as 2019-01-31".into(),
+        help:
+            "say which (--dates day-first or --dates month-first, or all of it with --time-format '%y/%m/%d'), choose \
+               another time column, or write dates as 2019-01-31"
+                .into(),
     }
 }
 

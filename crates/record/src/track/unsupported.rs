@@ -27,9 +27,7 @@ pub(crate) fn refuse_other_formats(body: &[u8], path: &Path) -> Result<()> {
         ),
         [b'<', ..] => refuse("markup (XML or HTML), not a table", "export the record as CSV"),
         [b'{', ..] => refuse("JSON, not a table", "export the record as CSV, one row for each time"),
-        _ if is_mesh(start) => {
-            refuse("a mesh, not a table", "export the record as CSV")
-        }
+        _ if is_mesh(start) => refuse("a mesh, not a table", "export the record as CSV"),
         _ => Ok(()),
     }
 }

@@ -21,7 +21,9 @@ pub(super) const FORMAT: Format = Format {
     known: |text| {
         let first = text.lines().take(200).filter_map(names_of);
         first.into_iter().any(|line| {
-            ["Raw,ElapsedRealtimeMillis,", "Raw,utcTimeMillis,", "Fix,Provider,"].iter().any(|start| line.starts_with(start))
+            ["Raw,ElapsedRealtimeMillis,", "Raw,utcTimeMillis,", "Fix,Provider,"]
+                .iter()
+                .any(|start| line.starts_with(start))
         })
     },
     sheet: Some(sheet),

@@ -32,7 +32,9 @@ impl Form {
             Some(Self::Iso { date_only: date_only() })
         } else if most(&|c| timestamp::clock(c).is_some()) {
             Some(Self::Clock)
-        } else if most(&|c| [true, false].iter().any(|first| timestamp::year_last(c, *first).is_some() && !timestamp::ends_a_day(c))) {
+        } else if most(&|c| {
+            [true, false].iter().any(|first| timestamp::year_last(c, *first).is_some() && !timestamp::ends_a_day(c))
+        }) {
             Some(Self::YearLast { date_only: date_only() })
         } else if most(&|c| timestamp::count(c, 1, head.reading.decimal_comma).is_some()) {
             Some(Self::Number)

@@ -73,8 +73,9 @@ impl Times {
     }
 
     pub(super) fn said(&self) -> Option<String> {
-        matches!(self, Self::Gps { .. })
-            .then(|| "`GpsTime` is TimeNanos without the biases of the clock: GPS time, ahead of UTC by the leap seconds".into())
+        matches!(self, Self::Gps { .. }).then(|| {
+            "`GpsTime` is TimeNanos without the biases of the clock: GPS time, ahead of UTC by the leap seconds".into()
+        })
     }
 
     /// True for the column that is the time.
