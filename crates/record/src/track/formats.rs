@@ -225,6 +225,11 @@ impl Known {
         known
     }
 
+    /// The format of a file, where one is known.
+    pub(crate) fn format(&self) -> Option<&'static Format> {
+        self.format.as_ref().map(|(format, _)| *format)
+    }
+
     /// The format of a file that has no place for columns beside its own: they are those of the format, or it tells them in
     /// another place than a line of names.
     pub(crate) fn closed(&self, names_in_line: bool) -> Option<&'static Format> {

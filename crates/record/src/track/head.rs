@@ -70,6 +70,8 @@ pub(crate) struct Head {
     pub(crate) fixed_width: bool,
     /// For each column, why it is no channel, as far as the format of the file tells.
     pub(crate) asides: Vec<Option<Aside>>,
+    /// The format of the file, where one is known.
+    pub(crate) format: Option<&'static Format>,
     /// The format of the file, where it has no place for other columns.
     pub(crate) closed: Option<&'static Format>,
     /// What the times of the file are counted in, in nanoseconds, and from when, as far as its format tells.
@@ -197,6 +199,7 @@ impl Head {
             styles,
             fixed_width,
             asides: Vec::new(),
+            format: None,
             closed: None,
             counted: None,
             said: seen.said(number, first, of.layout.mark, options),
@@ -217,6 +220,7 @@ impl Head {
         });
         self.asides = labels.into_iter().map(|label| label.aside).collect();
         self.counted = known.counted;
+        self.format = known.format();
         self.closed = known.closed(self.header_at.is_some());
         self.said.extend(known.said.iter().cloned());
     }

@@ -219,7 +219,7 @@ impl Understood {
             source: source.clone(),
             sha256,
             bytes,
-            dialect: self.dialect(options),
+            dialect: self.dialect(options, body.tail.texts),
             rows: body.rows,
             time: time_axis(head, timing, body.rows),
             truth: truth_of(&columns, roles, &body, path)?,
@@ -330,15 +330,18 @@ impl Understood {
         take_times(track, ordered, &mended.wild, again)
     }
 
-    fn dialect(&self, options: &LoadOptions) -> Dialect {
+    fn dialect(&self, options: &LoadOptions, footer: usize) -> Dialect {
         let head = &self.head;
         let rows = RowsAt {
             start: head.data_start,
             line: head.data_line,
             header: head.header_at,
             units: head.units_at,
+            end: head.data_end,
+            footer,
             repeats: head.repeats.clone(),
             mark: head.layout.mark,
+            format: self.viewed.as_ref().map(|viewed| viewed.format).or(head.format),
             closed: head.closed,
             made_of: self.made_of.clone(),
         };
@@ -396,7 +399,7 @@ fn columns_of(
     let mut columns = (0..head.names.len()).map(column).collect::<Result<Vec<_>>>()?;
     if options.channels.is_empty() {
         let mut kinds: Vec<ColumnKind> = columns.iter().map(|c| c.kind).collect();
-        release(&mut kinds);
+        release(&mut kinds, &roles.slots);
         columns.iter_mut().zip(kinds).for_each(|(column, kind)| column.kind = kind);
     }
     if options.channels.is_empty() && !columns.iter().any(|c| c.kind == ColumnKind::Number) {

@@ -96,6 +96,7 @@ fn of_lines(found: Found<'_>, (layout, reading): (Layout, Reading)) -> Head {
         styles: vec![None; width],
         fixed_width: false,
         asides: Vec::new(),
+        format: None,
         closed: None,
         counted: None,
         said: Vec::new(),
