@@ -84,6 +84,9 @@ pub(super) fn recognised(
     for column in candidates(track, head, most) {
         let Ok(targets) = Targets::read(track, column, again, head) else { continue };
         let count = targets.ids.len();
+        if track.channels.iter().all(|c| c.column == column) {
+            continue;
+        }
         // Hardly a row is alone under its id.
         if count < 2 || count * 3 > moments.len() || targets.in_small_ones(3) * 20 > moments.len() {
             continue;

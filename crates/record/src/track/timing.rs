@@ -196,9 +196,10 @@ fn since(text: &[u8], unit_ns: i64, zero_s: i64, decimal_comma: bool) -> Option<
         Some(Count::Inexact(value)) => {
             // More decimals than nanoseconds have, or days from far away: whole units apart from their decimals.
             let whole = value.trunc();
-            let units = (whole as i128) * i128::from(unit_ns) + i128::from(zero_s) * i128::from(SECOND);
+            let zero = i128::from(zero_s) * i128::from(SECOND);
+            let units = (whole as i128).checked_mul(i128::from(unit_ns))?.checked_add(zero)?;
             let part = ((value - whole) * unit_ns as f64 / 1e3).round() as i128 * 1000;
-            i64::try_from(units + part).ok()
+            i64::try_from(units.checked_add(part)?).ok()
         }
         None => None,
     }

@@ -100,14 +100,16 @@ pub(super) fn keep_one_channel(kinds: &mut [ColumnKind], is_time: &impl Fn(usize
     }
 }
 
-/// Where all columns were left aside by their values, the constant ones and flags are channels after all.
-pub(crate) fn release(kinds: &mut [ColumnKind]) {
+/// Where all columns were left aside by their values, the constant ones and flags are channels after all, as far as they
+/// were read into one of `slots`.
+pub(crate) fn release(kinds: &mut [ColumnKind], slots: &[Option<usize>]) {
     if kinds.contains(&ColumnKind::Number) {
         return;
     }
     for aside in [Aside::Flag, Aside::Constant] {
         let mut any = false;
-        kinds.iter_mut().filter(|k| **k == ColumnKind::Aside(aside)).for_each(|k| {
+        let read = kinds.iter_mut().zip(slots).filter(|(k, slot)| **k == ColumnKind::Aside(aside) && slot.is_some());
+        read.for_each(|(k, _)| {
             *k = ColumnKind::Number;
             any = true;
         });
