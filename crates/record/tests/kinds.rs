@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use wildpoint_record::track::{Aside, ColumnKind, LoadOptions, Source, Track, load};
+use wildpoint_record::track::{Aside, ColumnKind, LoadOptions, Pattern, Source, Track, load};
 
 const ROWS: usize = 60;
 
@@ -116,6 +116,18 @@ fn the_order_of_dates_is_told_by_what_else_is_written() {
     let track = loaded(&hourly);
     assert!(first(&track).starts_with("2021-03-04 15:00:00"), "{}", first(&track));
     assert_eq!(track.time.seconds[ROWS - 1], 3600.0 * (ROWS - 1) as f64);
+}
+
+#[test]
+fn a_pattern_of_dates_leaves_clocks_in_their_column() {
+    let text = table("Date,Time,Depth\n", |i| format!("21/03/04,10:{i:02}:00,{:.2}", value(i)));
+    let source = Source::BuiltIn { name: "test", bytes: text.as_bytes().into() };
+    let e = load(&source, &LoadOptions::default()).unwrap_err().to_string();
+    assert!(e.contains("--time-format '%y/%m/%d'"), "{e}");
+    let pattern = Pattern::new("%y/%m/%d").unwrap();
+    let track = load(&source, &LoadOptions { time_format: Some(pattern), ..LoadOptions::default() }).unwrap();
+    assert!(first(&track).starts_with("2021-03-04 10:00:00"), "{}", first(&track));
+    assert_eq!(usable(&track), ROWS);
 }
 
 #[test]

@@ -131,7 +131,14 @@ impl<'a> Candidates<'a> {
             Some(told) => Some(Zone::find(told)?),
             None => self.named_zone(&mut timing),
         };
-        if let (Some(pattern), false) = (&self.options.time_format, matches!(timing.format, TimeFormat::Pattern(_))) {
+        let fits = |pattern: &Pattern| match &timing.format {
+            TimeFormat::Pattern(_) => true,
+            TimeFormat::Parts(parts) => {
+                parts.iter().any(|p| matches!(p, Part::Date(o) if pattern.date_order() == Some(*o)))
+            }
+            _ => false,
+        };
+        if let Some(pattern) = self.options.time_format.as_ref().filter(|pattern| !fits(pattern)) {
             return Err(Error::usage(
                 format!("`{}` does not fit the pattern {}", printable(&self.head.names[timing.column]), pattern.text()),
                 format!("it holds {}; name another column with --time", self.example(timing.column)),
@@ -313,7 +320,13 @@ impl<'a> Candidates<'a> {
         if let Form::Told { .. } = date_form
             && let Some(pattern) = &self.options.time_format
         {
-            return Ok(Timing::of(dated, None, TimeFormat::Pattern(Pattern::clone(pattern))));
+            // A pattern of dates, and clocks in a column of their own.
+            let clock = |order| {
+                let clock = date_column.filter(|date| *date != column).map(|_| column)?;
+                Some(Timing::of_parts(vec![dated, clock], vec![Part::Date(order), Part::Clock]))
+            };
+            let apart = pattern.date_order().and_then(clock);
+            return Ok(apart.unwrap_or_else(|| Timing::of(dated, None, TimeFormat::Pattern(Pattern::clone(pattern)))));
         }
         let clock = date_column.map(|_| self.forms[column]);
         let plain_clock = matches!(clock, None | Some(Some(Form::Clock)));
