@@ -1,7 +1,5 @@
 //! Awkward files of kinds that people hold: what is understood of each without an option.
 
-#![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
-
 use std::fmt::Write as _;
 
 use wildpoint_record::track::{Aside, ColumnKind, LoadOptions, Pattern, Source, Track, load};

@@ -78,15 +78,13 @@ pub(crate) fn mend(moments: &mut [i64], about: About<'_>) -> Mended {
 
 /// True where every moment is after the one before, or equal to it: nearly every record.
 fn goes_forward(moments: &[i64], of_row: Option<&[u32]>) -> bool {
-    of_row.is_none() && moments.windows(2).all(|w| w[1] >= w[0] || w[1] == UNREADABLE || w[0] == UNREADABLE) && {
-        // With unreadable ones between, what is readable must go forward all the same.
-        let mut last = i64::MIN;
-        moments.iter().filter(|m| **m != UNREADABLE).all(|m| {
-            let fits = *m >= last;
-            last = *m;
-            fits
-        })
-    }
+    let mut last = i64::MIN;
+    let mut fits = |moment: &i64| {
+        let forward = *moment >= last;
+        last = *moment;
+        forward
+    };
+    of_row.is_none() && moments.iter().filter(|m| **m != UNREADABLE).all(&mut fits)
 }
 
 /// The rows with a readable moment of each target, in the order of the file.

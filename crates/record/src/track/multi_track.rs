@@ -73,11 +73,14 @@ pub(super) fn recognised(
     head: &Head,
 ) -> Result<Option<usize>> {
     let Some(Moments::Exact(moments)) = moments else { return Ok(None) };
-    let lost = behind(moments.iter()).min(behind(moments.iter().rev()));
+    let few = |lost: usize| lost * 20 <= moments.len();
+    let lost = behind(moments.iter());
+    // Nearly every record goes forward, and is not looked at from its end.
+    let lost = if few(lost) { lost } else { lost.min(behind(moments.iter().rev())) };
     if moments.len() < 8 {
         return Ok(None);
     }
-    if lost * 20 <= moments.len() {
+    if few(lost) {
         return interleaved(track, again, head);
     }
     let most = lost * 5 > moments.len() * 2;

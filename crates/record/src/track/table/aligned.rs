@@ -19,13 +19,11 @@ pub(super) fn with_units(heading: Heading, lines: &[Line], first: usize, of: &Li
     let text = |line: &Line| std::str::from_utf8(&of.body[line.start..line.start + line.length]).ok();
     let above = text(&lines[names_at]).map(words).filter(|w| w.len() == heading.names.len());
     let Some(above) = above else { return heading };
-    for at in names_at + 1..first {
-        let units = text(&lines[at]).and_then(|t| below(&above, &words(t)));
-        if let Some(units) = units {
-            return Heading { units_at: Some(at), units, ..heading };
-        }
+    let units = |at: usize| Some((at, below(&above, &words(text(&lines[at])?))?));
+    match (names_at + 1..first).find_map(units) {
+        Some((at, units)) => Heading { units_at: Some(at), units, ..heading },
+        None => heading,
     }
-    heading
 }
 
 fn words(line: &str) -> Vec<Word<'_>> {

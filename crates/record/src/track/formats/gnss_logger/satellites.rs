@@ -33,15 +33,13 @@ impl Satellites {
         };
         let code = |row: &&[Piece<'_>]| format!(" {}", text(row, find("CodeType")));
         // Several signals of one satellite are told apart by their carrier, and by their code where that does not do.
-        let parts: [&dyn Fn(&&[Piece<'_>]) -> String; 2] = [&carrier, &code];
-        for part in parts {
-            if !repeats(&labels, rows, times) {
-                break;
+        let mut append = |part: &dyn Fn(&&[Piece<'_>]) -> String| {
+            if repeats(&labels, rows, times) {
+                labels.iter_mut().zip(rows).for_each(|(label, row)| label.push_str(part(row).trim_end()));
             }
-            labels.iter_mut().zip(rows).for_each(|(label, row)| {
-                label.push_str(part(row).trim_end());
-            });
-        }
+        };
+        append(&carrier);
+        append(&code);
         Some(Self(labels))
     }
 
