@@ -16,7 +16,7 @@ use ratatui::layout::Rect;
 use wildpoint::experiment::Random;
 use wildpoint::session::{Analysed, Preset, Session, Setup, method_of_id, write_cleaned};
 use wildpoint::stop::Stop;
-use wildpoint::track::{LoadOptions, Source, Track, load};
+use wildpoint::track::{LoadOptions, Rules, Source, Track, load};
 use wildpoint::tui::jobs::Judge;
 use wildpoint::tui::message::{Effect, Message};
 use wildpoint::tui::model::Model;
@@ -79,8 +79,11 @@ fn text(n: usize) -> String {
 }
 
 fn loaded(path: &Path) -> Track {
-    let options = LoadOptions::default();
-    load(&Source::File(path.to_path_buf()), &options).unwrap_or_else(|e| panic!("{e}"))
+    loaded_by(path, &LoadOptions::default())
+}
+
+fn loaded_by(path: &Path, options: &LoadOptions) -> Track {
+    load(&Source::File(path.to_path_buf()), options).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn hampel(window: &str) -> Setup {
@@ -114,6 +117,11 @@ fn files(criterion: &mut Criterion) {
         {
             group.bench_function(BenchmarkId::new(name, n), |b| b.iter(|| black_box(loaded(path).rows)));
         }
+        // What recognition costs beside the rules of sessions that were saved before it.
+        let first = LoadOptions { rules: Rules::First, ..LoadOptions::default() };
+        group.bench_function(BenchmarkId::new("load, first rules", n), |b| {
+            b.iter(|| black_box(loaded_by(&files.plain, &first).rows));
+        });
         let session = Session::new(&track, LoadOptions::default(), &hampel("21"));
         let analysed = Analysed::of(&session, &track, &Stop::never()).unwrap_or_else(|e| panic!("{e}"));
         let changes = analysed.changes(&track);

@@ -22,6 +22,7 @@ const fn job(what: &'static str, at: &'static str, budget: f64) -> Job {
 /// Every job with a budget, in the order of the table.
 const JOBS: &[Job] = &[
     job("load a two-column CSV, 1e6 rows (19 MB)", "file/load/1000000", 40.0),
+    job("load by the rules of sessions without `rules = 2`, 1e6 rows", "file/load, first rules/1000000", 40.0),
     job("load, 1e7 rows (205 MB)", "file/load/10000000", 400.0),
     job("load, gzipped, 1e6 rows", "file/load, gzipped/1000000", 120.0),
     job("load, all cells quoted, 1e6 rows", "file/load, quoted/1000000", 80.0),

@@ -19,7 +19,7 @@ mod svg;
 pub use crate::session::flags::flags;
 pub use diagnostics::diagnostics;
 pub(crate) use inspection::short;
-pub use inspection::{ChannelFacts, Inspection, layout};
+pub use inspection::{ChannelFacts, Inspection, TableFacts, TimeFacts, layout};
 pub use page::ReportForm;
 pub use reproduction::reproduction_text;
 pub use summary::{ChannelSummary, Summary};

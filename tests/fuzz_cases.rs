@@ -51,6 +51,31 @@ fn seeded_inputs_break_no_law() {
     }
 }
 
+/// `WILDPOINT_FUZZ_SECONDS=60 cargo test --test fuzz_cases -- --ignored --nocapture` runs each target for a minute.
+#[test]
+#[ignore = "runs as long as WILDPOINT_FUZZ_SECONDS says, for each target"]
+#[expect(clippy::print_stdout, reason = "it says how many inputs there were")]
+fn seeded_inputs_for_a_while() {
+    let seconds = std::env::var("WILDPOINT_FUZZ_SECONDS").ok().and_then(|s| s.parse().ok()).unwrap_or(10);
+    let wanted = std::env::var("WILDPOINT_FUZZ_TARGETS").unwrap_or_default();
+    let asked = |target: &str| wanted.is_empty() || wanted.split(',').any(|w| w == target);
+    for (index, (target, body)) in TARGETS.iter().enumerate().filter(|(_, (target, _))| asked(target)) {
+        let mut random = Random::new(1000 + index as u64);
+        let seeds: Vec<Vec<u8>> = cases(target).into_iter().map(|(_, data)| data).collect();
+        let begun = std::time::Instant::now();
+        let mut inputs = 0;
+        while begun.elapsed().as_secs() < seconds {
+            let data = match seeds.get(inputs % (seeds.len() + 1)) {
+                Some(seed) => mutated(seed, &mut random),
+                None => noise(&mut random),
+            };
+            run(*body, &format!("{target} input {inputs}"), &data);
+            inputs += 1;
+        }
+        println!("{target}: {inputs} inputs");
+    }
+}
+
 #[test]
 fn every_target_is_run_by_the_fuzzer_too() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -10,7 +10,11 @@ use crate::method::shared::MAX_GAP;
 use crate::param::Value;
 use crate::session::{Remedy, Suggestion, suggestions};
 use crate::stop::{Stop, Stopped};
-use crate::track::{ColumnKind, Delimiter, Encoding, FaultKind, Faults, Series, Track, printable, without_signed_zero};
+use crate::track::{ColumnKind, Encoding, FaultKind, Faults, Series, Track, printable, without_signed_zero};
+
+mod understood;
+
+pub use understood::{TableFacts, TimeFacts};
 
 /// The facts of a file.
 #[derive(Debug, Clone, Serialize)]
@@ -21,6 +25,8 @@ pub struct Inspection {
     pub sha256: String,
     /// How its text is laid out, in words.
     pub layout: String,
+    /// How its text is laid out, fact by fact.
+    pub table: TableFacts,
     /// Data rows.
     pub rows: usize,
     /// Every column.
@@ -29,6 +35,12 @@ pub struct Inspection {
     pub time: String,
     /// How times are written, in words.
     pub time_format: String,
+    /// Where the times stand, fact by fact.
+    pub time_facts: TimeFacts,
+    /// The column that tells tracks apart, where one does.
+    pub track: Option<String>,
+    /// The truth column, where there is one.
+    pub truth: Option<String>,
     /// First and last usable time.
     pub time_range: Option<(String, String)>,
     /// From the first to the last usable time, in seconds.
@@ -129,6 +141,7 @@ impl Inspection {
             file: track.source.path().map_or_else(|| track.source.name(), |p| p.display().to_string()),
             sha256: track.sha256.clone(),
             layout: layout(track),
+            table: TableFacts::of(track),
             rows: track.rows,
             columns: track
                 .columns
@@ -148,6 +161,9 @@ impl Inspection {
                 .collect(),
             time: track.time.name.clone(),
             time_format: track.time.format.words(),
+            time_facts: TimeFacts::of(track),
+            track: name_of(track, ColumnKind::Track),
+            truth: name_of(track, ColumnKind::Truth),
             time_range: ends.map(|(a, b)| (track.time.full_label(a), track.time.full_label(b))),
             duration_s: ends.map(|(a, b)| b - a),
             channels: track.channels.iter().map(|c| channel_facts(track, c)).collect(),
@@ -225,6 +241,11 @@ impl Inspection {
             );
         }
     }
+}
+
+/// The name of the column of a kind.
+fn name_of(track: &Track, kind: ColumnKind) -> Option<String> {
+    track.columns.iter().find(|c| c.kind == kind).map(|c| c.name.clone())
 }
 
 /// Six significant digits, without an exponent where that is readable.
@@ -312,14 +333,7 @@ fn fault_facts(faults: &Faults) -> Vec<FaultFacts> {
 #[must_use]
 pub fn layout(track: &Track) -> String {
     let d = &track.dialect;
-    let delimiter = match d.delimiter {
-        Delimiter::Byte(b',') => "commas",
-        Delimiter::Byte(b';') => "semicolons",
-        Delimiter::Byte(b'\t') => "tabs",
-        Delimiter::Byte(b'|') => "pipes",
-        Delimiter::Byte(_) => "one character",
-        Delimiter::Blanks => "blanks",
-    };
+    let delimiter = understood::delimiter(d.delimiter);
     let encoding = match d.encoding {
         Encoding::Utf8 { bom: false } => "UTF-8",
         Encoding::Utf8 { bom: true } => "UTF-8 with byte order mark",

@@ -22,7 +22,10 @@ pub(super) fn body(data: &[u8]) {
     }
     assert!(track.truth.as_ref().is_none_or(|t| t.len() == track.rows));
     assert_eq!(track.time.seconds.len(), track.rows);
-    let times: Vec<f64> = track.time.seconds.iter().copied().filter(|t| t.is_finite()).collect();
+    let mut times: Vec<f64> = track.time.seconds.iter().copied().filter(|t| t.is_finite()).collect();
+    if track.time.newest_first {
+        times.reverse();
+    }
     assert!(times.windows(2).all(|w| w[0] < w[1]), "times go forward");
     let mut rows = 0;
     for_each_row(&track, |row, cells| {

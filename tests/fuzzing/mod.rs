@@ -10,13 +10,20 @@
 )]
 
 mod bytes;
+mod cells;
 mod config;
+mod formats;
+mod header;
 mod journal;
 mod keymap;
+mod laws;
 mod loader;
 pub(crate) mod methods;
+mod packings;
+mod roles;
 mod sanitiser;
 mod session;
+mod tables;
 mod times;
 
 /// Does something with arbitrary bytes; panics where a law is broken.
@@ -25,6 +32,12 @@ pub(crate) type Body = fn(&[u8]);
 /// Every target: its name (that of `fuzz/targets/NAME.rs` and `fuzz/regressions/NAME/`) and its body.
 pub(crate) static TARGETS: &[(&str, Body)] = &[
     ("loader", loader::body),
+    ("tables", tables::body),
+    ("header", header::body),
+    ("roles", roles::body),
+    ("cells", cells::body),
+    ("formats", formats::body),
+    ("packings", packings::body),
     ("session", session::body),
     ("keymap", keymap::body),
     ("config", config::body),

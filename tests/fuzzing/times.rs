@@ -3,11 +3,11 @@
 
 use std::sync::Arc;
 
-use wildpoint::track::{LoadOptions, Source, TimeAxis, TimeFormat, load};
+use wildpoint::track::{DateOrder, LoadOptions, Source, TimeAxis, TimeFormat, Zero, load};
 
 use super::bytes::Bytes;
 
-const FORMATS: [TimeFormat; 11] = [
+const FORMATS: [TimeFormat; 18] = [
     TimeFormat::SampleNumber,
     TimeFormat::Seconds,
     TimeFormat::Elapsed { unit_ns: 1_000_000 },
@@ -19,6 +19,13 @@ const FORMATS: [TimeFormat; 11] = [
     TimeFormat::YearLast { day_first: true },
     TimeFormat::YearLast { day_first: false },
     TimeFormat::Clock,
+    TimeFormat::Stamp { order: DateOrder::YearFirst },
+    TimeFormat::Stamp { order: DateOrder::DayFirst },
+    TimeFormat::Stamp { order: DateOrder::MonthFirst },
+    TimeFormat::Duration,
+    TimeFormat::DecimalYear,
+    TimeFormat::Since { unit_ns: 86_400_000_000_000, zero: Zero::Spreadsheet },
+    TimeFormat::Since { unit_ns: 1_000_000_000, zero: Zero::At(1_614_852_000) },
 ];
 
 pub(super) fn body(data: &[u8]) {

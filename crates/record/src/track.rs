@@ -187,10 +187,18 @@ pub struct RowsAt {
     pub(crate) header: Option<(usize, usize)>,
     /// Offset and length of the line of units.
     pub(crate) units: Option<(usize, usize)>,
+    /// Offset of what follows the last row, where another table does.
+    pub(crate) end: Option<usize>,
+    /// Lines of text below the last row.
+    pub(crate) footer: usize,
     /// Lines that come again among the rows and are none: header and units.
     pub(crate) repeats: Vec<Vec<u8>>,
     /// What comments begin with, besides `#`, `%` and `//`.
     pub(crate) mark: Option<tokens::Mark>,
+    /// The format of the file, where one is known.
+    pub(crate) format: Option<&'static Format>,
+    /// The format of the file, where it has no place for columns beside its own.
+    pub(crate) closed: Option<&'static Format>,
     /// In a table that a format makes of a text: the lines of the text where its first rows begin.
     pub(crate) made_of: Vec<u64>,
 }
@@ -200,6 +208,30 @@ impl RowsAt {
     #[must_use]
     pub fn names_columns(&self) -> bool {
         self.header.is_some()
+    }
+
+    /// The line of the first row, from 1.
+    #[must_use]
+    pub fn first_line(&self) -> u64 {
+        self.made_of.first().copied().unwrap_or(self.line)
+    }
+
+    /// Lines of text below the last row.
+    #[must_use]
+    pub fn lines_below(&self) -> usize {
+        self.footer
+    }
+
+    /// What comments begin with, besides `#`, `%` and `//`.
+    #[must_use]
+    pub fn comment(&self) -> Option<String> {
+        self.mark.map(|mark| String::from_utf8_lossy(mark.bytes()).into_owned())
+    }
+
+    /// The format of the file, where one is known by its name.
+    #[must_use]
+    pub fn format(&self) -> Option<&'static Format> {
+        self.format
     }
 }
 

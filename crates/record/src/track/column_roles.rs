@@ -32,8 +32,6 @@ pub(crate) struct Roles {
     beside: Vec<usize>,
     /// By which rules.
     rules: Rules,
-    /// Rows of the sample.
-    rows: usize,
 }
 
 /// Gives each column its role.
@@ -82,7 +80,10 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
     if options.rules == Rules::Second {
         aside::keep_one_channel(&mut unread, &is_time);
     }
-    let truths: Vec<bool> = (0..head.names.len()).map(|c| holds_truths(head, c, truth == Some(c))).collect();
+    let words = |c: usize| options.rules == Rules::Second || truth == Some(c);
+    let truths: Vec<bool> =
+        (0..head.names.len()).map(|c| words(c) && holds_truths(head, c, truth == Some(c))).collect();
+    let named = |c: usize| is_truth(&head.names[c], options.rules);
     let wanted = |c: usize| {
         if is_time(c) || track == Some(c) {
             false
@@ -91,9 +92,9 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
         } else if channels.is_empty() {
             matches!(unread[c], ColumnKind::Number | ColumnKind::Empty)
                 || !late[c].is_empty()
-                || (truths[c] && names::is_truth(&head.names[c]))
+                || (truths[c] && named(c))
         } else {
-            channels.contains(&c) || (names::is_truth(&head.names[c]) && (truths[c] || unread[c] == ColumnKind::Number))
+            channels.contains(&c) || (named(c) && (truths[c] || unread[c] == ColumnKind::Number))
         }
     };
     let mut next = 0;
@@ -112,7 +113,6 @@ pub(crate) fn assign(head: &Head, timing: Option<&Timing>, options: &LoadOptions
         late,
         beside,
         rules: options.rules,
-        rows: head.sample.len(),
         unread,
     })
 }
@@ -130,34 +130,59 @@ impl Roles {
             if text { ColumnKind::Text } else { ColumnKind::Empty }
         } else if numbers.unreadable.count > numbers.present && !told {
             ColumnKind::Text
-        } else if !told && names::is_truth(name) && numbers.unreadable.count == 0 && all_bits() {
+        } else if !told && is_truth(name, self.rules) && numbers.unreadable.count == 0 && all_bits() {
             ColumnKind::Truth
         } else if self.rules == Rules::Second && !told {
-            aside::by_values(name, &numbers.values, self.rows).map_or(ColumnKind::Number, ColumnKind::Aside)
+            aside::by_values(name, &numbers.values).map_or(ColumnKind::Number, ColumnKind::Aside)
         } else {
             ColumnKind::Number
         }
     }
 }
 
-/// For each column whose sampled cells are one text or two, these: its numbers may begin further on.
+/// True for the name of a column of truths.
+fn is_truth(name: &str, rules: Rules) -> bool {
+    match rules {
+        Rules::First => names::earlier::is_truth(name),
+        Rules::Second => names::is_truth(name),
+    }
+}
+
+/// For each column whose sampled cells are one text or two, or such texts and fewer numbers, these texts: its numbers may
+/// begin further on, or be few.
 fn late_markers(head: &Head, options: &LoadOptions, is_time: &impl Fn(usize) -> bool) -> Vec<Vec<String>> {
     let of = |column: usize| {
         let mut texts: Vec<String> = Vec::new();
         if options.rules == Rules::First || is_time(column) || head.sample.len() < 8 {
             return texts;
         }
+        let mut numbers: Vec<&str> = Vec::new();
+        let mut worded = 0;
         for cell in head.column(column) {
-            match look(cell.as_bytes(), &head.reading) {
+            let look = look(cell.as_bytes(), &head.reading);
+            worded += usize::from(look == Look::Text);
+            match look {
                 Look::Empty => {}
                 Look::Text if texts.iter().any(|t| t == cell) => {}
                 Look::Text if texts.len() < 2 => texts.push(cell.to_owned()),
+                Look::Number if head.reading.number(cell.as_bytes()).is_some() => numbers.push(cell),
                 _ => return Vec::new(),
             }
         }
-        texts
+        // Among more numbers a text is a fault of its cell.
+        let few = numbers.len() < worded && are_measured(&mut numbers);
+        if numbers.is_empty() || few { texts } else { Vec::new() }
     };
     (0..head.names.len()).map(of).collect()
+}
+
+/// True where few of the numbers are the same, or where they have decimals: codes beside texts are no measurements.
+fn are_measured(numbers: &mut Vec<&str>) -> bool {
+    let decimals = numbers.iter().filter(|n| n.contains(['.', ','])).count() * 2 > numbers.len();
+    let count = numbers.len();
+    numbers.sort_unstable();
+    numbers.dedup();
+    count > 2 && numbers.len() > 1 && (decimals || numbers.len() * 2 > count)
 }
 
 /// True for a column of TRUE and FALSE; where the user says that it is one of truths, for any words.

@@ -6,7 +6,7 @@
 use encoding_rs::WINDOWS_1252;
 
 use super::view::{Field, Sheet, View, Want};
-use super::{Aside, Delimiter, LoadOptions, Rules};
+use super::{Aside, Delimiter, LoadOptions, Rules, Zero};
 use crate::error::Result;
 
 mod ardupilot;
@@ -19,6 +19,7 @@ mod dwd;
 mod eddypro;
 mod exo;
 mod fluxnet;
+mod gnss_logger;
 mod hobo;
 mod iaga;
 mod kiwis;
@@ -58,6 +59,8 @@ pub struct Format {
     complete: fn(&str, &mut Known),
     /// What is known of a column by its name, from the first lines of the file.
     label: fn(&str, &str) -> Label,
+    /// True where the columns of a file are those that the format has, and no others.
+    closed: bool,
     /// Makes a table of the records of the whole text, where its lines are no rows of one.
     pub(crate) sheet: Option<MakeSheet>,
 }
@@ -74,6 +77,7 @@ const PLAIN: Format = Format {
     known: |_| false,
     complete: |_, _| {},
     label: |_, _| Label::default(),
+    closed: false,
     sheet: None,
 };
 
@@ -100,6 +104,10 @@ pub(crate) struct Known {
     pub(crate) said: Vec<String>,
     /// The columns of the time, with commas between them.
     time: Option<String>,
+    /// What its numbers count, in nanoseconds, and from when.
+    pub(crate) counted: Option<(i64, Zero)>,
+    /// True where the format names the columns.
+    named: bool,
     /// The format, with the first lines of the file.
     format: Option<(&'static Format, String)>,
 }
@@ -114,7 +122,7 @@ pub(crate) struct Label {
 }
 
 /// All of them, in the order in which they are tried.
-pub static FORMATS: [Format; 32] = [
+pub static FORMATS: [Format; 33] = [
     cnv::FORMAT,
     oem::FORMAT,
     stk::FORMAT,
@@ -141,6 +149,7 @@ pub static FORMATS: [Format; 32] = [
     lvm::FORMAT,
     zrxp::FORMAT,
     tmy3::FORMAT,
+    gnss_logger::FORMAT,
     nmea::FORMAT,
     crd::FORMAT,
     tdm::FORMAT,
@@ -216,6 +225,18 @@ impl Known {
         known
     }
 
+    /// The format of a file, where one is known.
+    pub(crate) fn format(&self) -> Option<&'static Format> {
+        self.format.as_ref().map(|(format, _)| *format)
+    }
+
+    /// The format of a file that has no place for columns beside its own: they are those of the format, or it tells them in
+    /// another place than a line of names.
+    pub(crate) fn closed(&self, names_in_line: bool) -> Option<&'static Format> {
+        let (format, _) = self.format.as_ref()?;
+        (format.closed || self.named && !names_in_line).then_some(*format)
+    }
+
     /// What is known of the column of this name.
     pub(crate) fn label(&self, name: &str) -> Label {
         self.format.as_ref().map(|(format, text)| (format.label)(text, name)).unwrap_or_default()
@@ -225,6 +246,7 @@ impl Known {
     fn name<'a>(&mut self, names: impl IntoIterator<Item = &'a str>) {
         if self.options.names.is_empty() && self.options.header_line.is_none() {
             self.options.names = names.into_iter().map(str::to_owned).collect();
+            self.named = true;
         }
     }
 

@@ -11,8 +11,10 @@ use super::table::{Heading, Line, Lines, MOST_COLUMNS, NoTable, Table, heading, 
 use super::text::Text;
 use super::tokens::{Layout, Mark, OpenQuote};
 use super::view::View;
-use super::{Aside, LoadOptions, Rules, names, printable};
+use super::{Aside, Format, LoadOptions, Rules, Zero, names, printable};
 use crate::error::{Error, Result};
+
+mod earlier;
 
 /// Rows that are looked at.
 const SAMPLE: usize = 200;
@@ -68,6 +70,12 @@ pub(crate) struct Head {
     pub(crate) fixed_width: bool,
     /// For each column, why it is no channel, as far as the format of the file tells.
     pub(crate) asides: Vec<Option<Aside>>,
+    /// The format of the file, where one is known.
+    pub(crate) format: Option<&'static Format>,
+    /// The format of the file, where it has no place for other columns.
+    pub(crate) closed: Option<&'static Format>,
+    /// What the times of the file are counted in, in nanoseconds, and from when, as far as its format tells.
+    pub(crate) counted: Option<(i64, Zero)>,
     /// What was recognised that a user may want to correct.
     pub(crate) said: Vec<String>,
     /// True when the first lines were enough to tell all.
@@ -113,7 +121,11 @@ impl Head {
     /// a table that is not there.
     pub(crate) fn of(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
         let (layout, decimal_comma) = sniff(text.body(), options);
-        let reading = Reading::new(decimal_comma, &options.missing);
+        let reading = Reading::new(decimal_comma, &options.missing).by(options.rules);
+        // Sessions by the first rules that say where the table stands are later than those rules.
+        if options.rules == Rules::First && !options.tells_table() {
+            return earlier::head(text, (layout, reading), options, path);
+        }
         let mut of = Lines { body: text.body(), layout, encoding: text.encoding, skip: options.skip.unwrap_or(0) };
         let mut seen = Seen::of(&of, &reading, options).map_err(|e| no_table(path, e))?;
         let Some(first) = seen.chosen(options)?.map(|(_, t)| t.first) else {
@@ -187,8 +199,11 @@ impl Head {
             styles,
             fixed_width,
             asides: Vec::new(),
+            format: None,
+            closed: None,
+            counted: None,
             said: seen.said(number, first, of.layout.mark, options),
-            complete: seen.complete && end.is_none(),
+            complete: seen.complete && end.is_none() && rows.len() == SAMPLE,
         })
     }
 
@@ -204,13 +219,16 @@ impl Head {
             }
         });
         self.asides = labels.into_iter().map(|label| label.aside).collect();
+        self.counted = known.counted;
+        self.format = known.format();
+        self.closed = known.closed(self.header_at.is_some());
         self.said.extend(known.said.iter().cloned());
     }
 
     /// True when the head of `part`, the first whole lines of a longer text, is that of the whole text: nothing of what
     /// it was told from lay near the end.
     pub(crate) fn needs_no_more(&self, part: &[u8]) -> bool {
-        self.complete && self.sample.len() == SAMPLE && part.len() > self.data_start + SAMPLE_BYTES
+        self.complete && part.len() > self.data_start + SAMPLE_BYTES
     }
 
     /// The sampled cells of a column; rows with another number of cells than usual are left out while there are

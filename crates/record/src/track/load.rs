@@ -219,7 +219,7 @@ impl Understood {
             source: source.clone(),
             sha256,
             bytes,
-            dialect: self.dialect(options),
+            dialect: self.dialect(options, body.tail.texts),
             rows: body.rows,
             time: time_axis(head, timing, body.rows),
             truth: truth_of(&columns, roles, &body, path)?,
@@ -302,6 +302,12 @@ impl Understood {
             mended = moments.mended(about);
         }
         track.time.newest_first = mended.newest_first;
+        if mended.set_back > 0 && !mended.newest_first && track.time.is_calendar() {
+            track.notes.push(format!(
+                "times begin again an hour earlier ({}), as clocks do that are set back: --time-zone tells both hours apart",
+                times(mended.set_back)
+            ));
+        }
         if mended.newest_first {
             track.notes.push("the newest row stands first: the record is read from its end".into());
         }
@@ -324,15 +330,19 @@ impl Understood {
         take_times(track, ordered, &mended.wild, again)
     }
 
-    fn dialect(&self, options: &LoadOptions) -> Dialect {
+    fn dialect(&self, options: &LoadOptions, footer: usize) -> Dialect {
         let head = &self.head;
         let rows = RowsAt {
             start: head.data_start,
             line: head.data_line,
             header: head.header_at,
             units: head.units_at,
+            end: head.data_end,
+            footer,
             repeats: head.repeats.clone(),
             mark: head.layout.mark,
+            format: self.viewed.as_ref().map(|viewed| viewed.format).or(head.format),
+            closed: head.closed,
             made_of: self.made_of.clone(),
         };
         Dialect {
@@ -381,12 +391,15 @@ fn columns_of(
                 "choose another channel, or tell what means \"no value\" in it",
             ));
         }
-        Ok(Column { name: name.clone(), unit: head.units[index].clone(), kind, missing: body.missing[index] })
+        // Texts that could have stood where numbers had not begun are values of a column of texts.
+        let texts = numbers.filter(|_| kind == ColumnKind::Text).map_or(0, |n| n.late + n.unreadable.count);
+        let missing = body.missing[index] - texts.min(body.missing[index]);
+        Ok(Column { name: name.clone(), unit: head.units[index].clone(), kind, missing })
     };
     let mut columns = (0..head.names.len()).map(column).collect::<Result<Vec<_>>>()?;
     if options.channels.is_empty() {
         let mut kinds: Vec<ColumnKind> = columns.iter().map(|c| c.kind).collect();
-        release(&mut kinds);
+        release(&mut kinds, &roles.slots);
         columns.iter_mut().zip(kinds).for_each(|(column, kind)| column.kind = kind);
     }
     if options.channels.is_empty() && !columns.iter().any(|c| c.kind == ColumnKind::Number) {

@@ -17,6 +17,8 @@ pub(crate) struct Mended {
     pub(crate) wraps: usize,
     /// Rows of an hour that came a second time.
     pub(crate) repeated_hour: usize,
+    /// How often times go on from an hour before, as clocks show that are set back.
+    pub(crate) set_back: usize,
 }
 
 /// What is known of the moments besides themselves.
@@ -63,6 +65,8 @@ pub(crate) fn mend(moments: &mut [i64], about: About<'_>) -> Mended {
         }
         if let Some(zone) = about.zone {
             mended.repeated_hour += repeated_hours(moments, &rows, zone);
+        } else if !about.clock {
+            mended.set_back += set_back(moments, &rows);
         }
         if !about.clock {
             drop_wild(moments, &rows, &mut mended.wild);
@@ -74,15 +78,13 @@ pub(crate) fn mend(moments: &mut [i64], about: About<'_>) -> Mended {
 
 /// True where every moment is after the one before, or equal to it: nearly every record.
 fn goes_forward(moments: &[i64], of_row: Option<&[u32]>) -> bool {
-    of_row.is_none() && moments.windows(2).all(|w| w[1] >= w[0] || w[1] == UNREADABLE || w[0] == UNREADABLE) && {
-        // With unreadable ones between, what is readable must go forward all the same.
-        let mut last = i64::MIN;
-        moments.iter().filter(|m| **m != UNREADABLE).all(|m| {
-            let fits = *m >= last;
-            last = *m;
-            fits
-        })
-    }
+    let mut last = i64::MIN;
+    let mut fits = |moment: &i64| {
+        let forward = *moment >= last;
+        last = *moment;
+        forward
+    };
+    of_row.is_none() && moments.iter().filter(|m| **m != UNREADABLE).all(&mut fits)
 }
 
 /// The rows with a readable moment of each target, in the order of the file.
@@ -98,6 +100,14 @@ fn groups(moments: &[i64], of_row: Option<&[u32]>) -> Vec<Vec<usize>> {
         groups[target].push(row);
     }
     groups
+}
+
+/// How often a step is an hour less than usual.
+fn set_back(moments: &[i64], rows: &[usize]) -> usize {
+    const HOUR: i64 = DAY / 24;
+    let usual = usual_step(moments, rows);
+    let back = |w: &&[usize]| moments[w[1]].saturating_sub(moments[w[0]]) == usual - HOUR;
+    if usual > 0 && usual < HOUR { rows.windows(2).filter(back).count() } else { 0 }
 }
 
 /// The usual size of steps, in nanoseconds.

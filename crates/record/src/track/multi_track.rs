@@ -73,14 +73,23 @@ pub(super) fn recognised(
     head: &Head,
 ) -> Result<Option<usize>> {
     let Some(Moments::Exact(moments)) = moments else { return Ok(None) };
-    let lost = behind(moments.iter()).min(behind(moments.iter().rev()));
-    if lost * 20 <= moments.len() || moments.len() < 8 {
+    let few = |lost: usize| lost * 20 <= moments.len();
+    let lost = behind(moments.iter());
+    // Nearly every record goes forward, and is not looked at from its end.
+    let lost = if few(lost) { lost } else { lost.min(behind(moments.iter().rev())) };
+    if moments.len() < 8 {
         return Ok(None);
+    }
+    if few(lost) {
+        return interleaved(track, again, head);
     }
     let most = lost * 5 > moments.len() * 2;
     for column in candidates(track, head, most) {
         let Ok(targets) = Targets::read(track, column, again, head) else { continue };
         let count = targets.ids.len();
+        if track.channels.iter().all(|c| c.column == column) {
+            continue;
+        }
         // Hardly a row is alone under its id.
         if count < 2 || count * 3 > moments.len() || targets.in_small_ones(3) * 20 > moments.len() {
             continue;
@@ -99,6 +108,41 @@ pub(super) fn recognised(
     }
     Ok(None)
 }
+
+/// The column that tells tracks apart whose rows alternate and times go forward all the same: one with the name of an id,
+/// under which a channel is far smoother than from row to row. Its kind is that of a track column then, and the record
+/// says so.
+fn interleaved(track: &mut Track, again: Again<'_>, head: &Head) -> Result<Option<usize>> {
+    let named = (0..track.columns.len()).filter(|c| super::column_roles::is_id_column(&head.names[*c]));
+    for column in named.filter(|c| alternates(&head.column(*c))).collect::<Vec<_>>() {
+        let Ok(targets) = Targets::read(track, column, again, head) else { continue };
+        let (count, rows) = (targets.ids.len(), targets.of_row.len());
+        let smoother = track.channels.iter().filter(|c| c.column != column && targets.smooth(&c.values)).count();
+        if count < 2 || targets.in_small_ones(8) * 20 > rows || smoother == 0 {
+            continue;
+        }
+        track.columns[column].kind = ColumnKind::Track;
+        track.channels.retain(|c| c.column != column);
+        track.notes.push(format!(
+            "`{}` tells {count} tracks apart, whose rows alternate: each is judged by itself (--track names another column)",
+            printable(&head.names[column])
+        ));
+        return Ok(Some(column));
+    }
+    Ok(None)
+}
+
+/// True where the cells come back to earlier ones again and again.
+fn alternates(cells: &[&str]) -> bool {
+    let changes = cells.windows(2).filter(|w| w[0] != w[1]).count();
+    let mut distinct = cells.to_vec();
+    distinct.sort_unstable();
+    distinct.dedup();
+    distinct.len() > 1 && changes >= 4 * distinct.len()
+}
+
+/// Rows that tell whether tracks are smoother than the table.
+const MOST_COMPARED: usize = 10_000;
 
 /// Rows whose moment is not after all before it.
 fn behind<'a>(moments: impl Iterator<Item = &'a i64>) -> usize {
@@ -154,6 +198,26 @@ impl Targets {
             *last = Some(moment);
         }
         count
+    }
+
+    /// True where the values of each target follow each other in far smaller steps than those of all rows.
+    fn smooth(&self, values: &[f64]) -> bool {
+        const FAR: f64 = 10.0;
+        let mut lasts: Vec<f64> = vec![f64::NAN; self.ids.len()];
+        let (mut of_rows, mut of_targets) = (Vec::new(), Vec::new());
+        let mut before = f64::NAN;
+        for (target, value) in self.of_row.iter().zip(values).filter(|(_, v)| !v.is_nan()).take(MOST_COMPARED) {
+            let Some(last) = lasts.get_mut(*target as usize) else { continue };
+            of_rows.push((value - before).abs());
+            of_targets.push((value - *last).abs());
+            (before, *last) = (*value, *value);
+        }
+        let middle = |mut steps: Vec<f64>| {
+            steps.retain(|s| s.is_finite());
+            steps.sort_by(f64::total_cmp);
+            steps.get(steps.len() / 2).copied().unwrap_or(0.0)
+        };
+        middle(of_rows) > FAR * middle(of_targets)
     }
 
     /// Rows of targets that have fewer than `least`.

@@ -5,8 +5,10 @@ use std::collections::HashSet;
 use super::calendar::{DAY, SECOND};
 use crate::error::{Error, Result, nearest};
 
+pub(crate) mod earlier;
+
 /// Ends of names that are units, and the units as people write them.
-const UNITS: [(&str, &str); 76] = [
+const UNITS: [(&str, &str); 56] = [
     ("m", "m"),
     ("km", "km"),
     ("cm", "cm"),
@@ -27,26 +29,6 @@ const UNITS: [(&str, &str); 76] = [
     ("ns", "ns"),
     ("nanos", "ns"),
     ("nanoseconds", "ns"),
-    ("second", "s"),
-    ("millisecond", "ms"),
-    ("msec", "ms"),
-    ("msecs", "ms"),
-    ("microsecond", "us"),
-    ("usec", "us"),
-    ("usecs", "us"),
-    ("nanosecond", "ns"),
-    ("nsec", "ns"),
-    ("minute", "min"),
-    ("mins", "min"),
-    ("hour", "h"),
-    ("hrs", "h"),
-    ("hr", "h"),
-    ("day", "d"),
-    ("d", "d"),
-    ("knots", "kt"),
-    ("meter", "m"),
-    ("metre", "m"),
-    ("degrees", "deg"),
     ("min", "min"),
     ("minutes", "min"),
     ("h", "h"),
@@ -85,13 +67,37 @@ const UNITS: [(&str, &str); 76] = [
     ("psu", "psu"),
 ];
 
+/// Those that the rules of [`super::Rules::Second`] know besides.
+const MORE_UNITS: [(&str, &str); 20] = [
+    ("second", "s"),
+    ("millisecond", "ms"),
+    ("msec", "ms"),
+    ("msecs", "ms"),
+    ("microsecond", "us"),
+    ("usec", "us"),
+    ("usecs", "us"),
+    ("nanosecond", "ns"),
+    ("nsec", "ns"),
+    ("minute", "min"),
+    ("mins", "min"),
+    ("hour", "h"),
+    ("hrs", "h"),
+    ("hr", "h"),
+    ("day", "d"),
+    ("d", "d"),
+    ("knots", "kt"),
+    ("meter", "m"),
+    ("metre", "m"),
+    ("degrees", "deg"),
+];
+
 /// True for a unit that names may end with.
 pub(crate) fn is_unit(text: &str) -> bool {
     known_unit(text).is_some()
 }
 
 fn known_unit(text: &str) -> Option<&'static str> {
-    UNITS.iter().find(|(end, _)| text.eq_ignore_ascii_case(end)).map(|(_, unit)| *unit)
+    UNITS.iter().chain(&MORE_UNITS).find(|(end, _)| text.eq_ignore_ascii_case(end)).map(|(_, unit)| *unit)
 }
 
 /// The unit that a name ends with (`alt_ft`, `east(m)`, `salt [psu]`); empty where it does not.
@@ -273,7 +279,7 @@ pub fn is_id(name: &str) -> bool {
 
 /// True for names of stations and devices in other spellings: `STATIONS_ID`, `MMSI`, `device_id`.
 pub(crate) fn is_id_name(name: &str) -> bool {
-    const MORE: [&str; 22] = [
+    const MORE: [&str; 24] = [
         "stations",
         "stationid",
         "stationsid",
@@ -295,7 +301,9 @@ pub(crate) fn is_id_name(name: &str) -> bool {
         "mac",
         "hex",
         "icao",
+        "icao24",
         "ident",
+        "squawk",
     ];
     let words = words(name);
     let known = |w: &&str| is_id_word(w) || MORE.iter().any(|m| w.eq_ignore_ascii_case(m));
@@ -340,37 +348,18 @@ pub(crate) fn time_rank(name: &str) -> u8 {
     }
 }
 
-/// [`time_rank`] as it was before the rules of [`super::Rules::Second`].
-pub(crate) fn earlier_time_rank(name: &str) -> u8 {
-    let words: Vec<String> = words(name).iter().map(|w| w.to_lowercase()).collect();
-    let Some(first) = words.first() else { return 0 };
-    let is_time =
-        |w: &str| matches!(w, "time" | "times" | "timestamp" | "timestamps" | "datetime" | "utc" | "时间" | "时刻");
-    let without_unit = match words.split_last() {
-        Some((last, rest)) if !rest.is_empty() && known_unit(last).is_some() => rest,
-        _ => &words[..],
-    };
-    let last = without_unit.last().unwrap_or(first);
-    if is_time(first) {
-        4
-    } else if is_time(last) || matches!(first.as_str(), "epoch" | "date" | "unix" | "unixtime") || last == "epoch" {
-        3
-    } else if without_unit.len() == 1 && matches!(first.as_str(), "t" | "tow" | "sec" | "secs" | "seconds" | "elapsed")
-    {
-        2
-    } else {
-        0
-    }
-}
-
 /// True for `truth`, `truth_outlier`, `do_truth`, ….
 pub(crate) fn is_truth(name: &str) -> bool {
-    words(name).iter().any(|w| w.eq_ignore_ascii_case("truth")) || name.eq_ignore_ascii_case("is_outlier")
+    earlier::is_truth(name) || name.eq_ignore_ascii_case("is_outlier")
 }
 
 /// Nanoseconds in one unit of time of this name.
 pub(crate) fn time_unit_ns(unit: &str) -> Option<i64> {
-    Some(match known_unit(unit).unwrap_or(unit) {
+    nanoseconds_in(known_unit(unit).unwrap_or(unit))
+}
+
+fn nanoseconds_in(unit: &str) -> Option<i64> {
+    Some(match unit {
         "ns" => 1,
         "us" => 1_000,
         "ms" => 1_000_000,

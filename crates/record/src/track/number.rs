@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use super::Rules;
+
 /// What a cell of a numeric column holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cell {
@@ -31,6 +33,8 @@ pub struct Reading {
     pub(crate) decimal_comma: bool,
     texts: Vec<String>,
     values: Vec<f64>,
+    /// By which rules it is told what a cell looks like.
+    pub(crate) rules: Rules,
 }
 
 impl Reading {
@@ -45,6 +49,11 @@ impl Reading {
             }
         }
         reading
+    }
+
+    /// The same by other rules.
+    pub(crate) fn by(self, rules: Rules) -> Self {
+        Self { rules, ..self }
     }
 
     /// What `cell`, trimmed and unquoted, holds.

@@ -1,5 +1,9 @@
 //! Numbers that are written with more than a number: units, signs of currencies, thousands, letters of quality.
 
+use std::borrow::Cow;
+
+use encoding_rs::WINDOWS_1252;
+
 /// What stands in a cell besides its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Oddity {
@@ -65,7 +69,12 @@ pub(crate) struct Odd {
 
 /// The number in `cell`, trimmed and unquoted, which is no bare number; none where there is none.
 pub(crate) fn odd(cell: &[u8], decimal_comma: bool) -> Option<Odd> {
-    let text = std::str::from_utf8(cell).ok()?;
+    // Hard blanks and currencies in Windows-1252; where they stand is asked of text alone.
+    let text = match std::str::from_utf8(cell) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => WINDOWS_1252.decode_without_bom_handling(cell).0,
+    };
+    let text = text.as_ref();
     if text.len() > 40 || !text.bytes().any(|b| b.is_ascii_digit()) {
         return None;
     }

@@ -52,6 +52,14 @@ pub struct LoadOptions {
     pub rules: Rules,
 }
 
+impl LoadOptions {
+    /// True where the user says where the table stands.
+    pub(crate) fn tells_table(&self) -> bool {
+        let lines = [self.header_line, self.skip, self.units_line, self.table];
+        lines.iter().any(Option::is_some) || self.comment.is_some() || !self.names.is_empty()
+    }
+}
+
 /// The rules by which a file is understood. A session says by which it was made, so that later rules change no result.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Rules {

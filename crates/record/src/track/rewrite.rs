@@ -9,7 +9,7 @@ use super::rows::{text_of, unchanged, walk};
 use super::style::Style;
 use super::text::{Text, decoded, path_of};
 use super::tokens::{Layout, Record, Span, inner};
-use super::{Delimiter, Encoding, Track};
+use super::{Delimiter, Encoding, Format, Track};
 use crate::error::{Error, Result};
 
 /// What is different in the output.
@@ -105,11 +105,11 @@ pub(super) fn rewrite_as(
     let text = text_of(track, &stored)?;
     let mut pen = Pen { out, encoding: text.encoding, track };
     pen.raw(text.mark())?;
+    let records = track.dialect.view.as_ref().map(|viewed| viewed.format);
+    if let Some(format) = records.or(track.dialect.rows.closed).filter(|_| !columns.is_empty()) {
+        return Err(no_place(format));
+    }
     if let Some(view) = &text.view {
-        if !columns.is_empty() {
-            let help = "write the flags as a table of their own with --flags";
-            return Err(Error::usage("a file of records has no place for columns beside its values", help));
-        }
         return super::view::rewrite(track, &text, view, changes, &mut pen);
     }
     let layout = track.dialect.layout(text.body());
@@ -135,6 +135,14 @@ pub(super) fn rewrite_as(
             format!("the record has {} rows; changes are sorted by row and column", track.rows),
         )),
     }
+}
+
+/// A file of this format cannot have more columns.
+fn no_place(format: &Format) -> Error {
+    Error::usage(
+        format!("{} has no place for columns beside its own", format.name),
+        "have them in a table of their own (--flags writes one), or write the record as CSV first",
+    )
 }
 
 /// Writes text in the encoding of the file.

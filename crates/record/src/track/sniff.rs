@@ -7,7 +7,9 @@ use super::odd::{Oddity, odd};
 use super::time::{DateOrder, fields};
 use super::tokens::Mark;
 use super::tokens::{Layout, RecordKind, Records, inner, kind_of, line_end_of, split};
-use super::{Delimiter, LoadOptions, timestamp};
+use super::{Delimiter, LoadOptions, Rules, timestamp};
+
+mod earlier;
 
 /// How much of a file is looked at.
 pub(crate) const SAMPLE_BYTES: usize = 64 << 10;
@@ -33,6 +35,7 @@ pub(crate) fn look(cell: &[u8], reading: &Reading) -> Look {
     match reading.cell(cell) {
         Cell::Number(_) | Cell::Infinite => Look::Number,
         Cell::Missing => Look::Empty,
+        Cell::Text if reading.rules == Rules::First => earlier::look_of_text(cell),
         Cell::Text if timestamp::iso(cell).is_some() || timestamp::clock(cell).is_some() => Look::Time,
         Cell::Text if [true, false].iter().any(|first| timestamp::year_last(cell, *first).is_some()) => Look::Time,
         Cell::Text if is_stamp(cell) => Look::Time,
@@ -52,22 +55,29 @@ fn is_stamp(cell: &[u8]) -> bool {
 pub(crate) fn sniff(body: &[u8], options: &LoadOptions) -> (Layout, bool) {
     let line_end = line_end_of(body);
     let mark = options.comment.as_ref().and_then(|text| Mark::new(text.as_bytes()));
-    let sample = sample_of(body, line_end, mark);
+    let rules = options.rules;
+    let sample = sample_of(body, line_end, mark, rules);
     let quote = options.quotes.unwrap_or(true).then_some(b'"');
     let mut layout = Layout { delimiter: Delimiter::Byte(b','), quote, line_end, mark };
-    layout.delimiter = options.delimiter.unwrap_or_else(|| best_delimiter(sample, layout));
+    layout.delimiter = options.delimiter.unwrap_or_else(|| best_delimiter(sample, layout, rules));
     if quote.is_some() && single_quoted(sample, layout) {
         layout.quote = Some(b'\'');
-        layout.delimiter = options.delimiter.unwrap_or_else(|| best_delimiter(sample, layout));
+        layout.delimiter = options.delimiter.unwrap_or_else(|| best_delimiter(sample, layout, rules));
     }
     let comma_is_free = layout.delimiter != Delimiter::Byte(b',');
-    let decimal_comma = options.decimal_comma.unwrap_or_else(|| comma_is_free && has_decimal_commas(sample, layout));
+    let decimal_comma = options.decimal_comma.unwrap_or_else(|| {
+        comma_is_free
+            && match rules {
+                Rules::First => earlier::has_decimal_commas(sample, layout),
+                Rules::Second => has_decimal_commas(sample, layout),
+            }
+    });
     (layout, decimal_comma)
 }
 
 /// The head of `body` after its comments, cut at a line end; the lines with the most digits, where text of any length
 /// stands before them.
-fn sample_of(body: &[u8], line_end: u8, mark: Option<Mark>) -> &[u8] {
+fn sample_of(body: &[u8], line_end: u8, mark: Option<Mark>, rules: Rules) -> &[u8] {
     let mut body = body;
     // Some instruments write their whole configuration as comments before the first row.
     while let Some(at) = memchr(line_end, body)
@@ -75,7 +85,7 @@ fn sample_of(body: &[u8], line_end: u8, mark: Option<Mark>) -> &[u8] {
     {
         body = &body[at + 1..];
     }
-    let start = digits_start(body, line_end);
+    let start = if rules == Rules::First { 0 } else { digits_start(body, line_end) };
     let body = &body[start..];
     if body.len() <= SAMPLE_BYTES {
         return body;
@@ -121,24 +131,24 @@ fn for_records(sample: &[u8], layout: Layout, mut f: impl FnMut(&[&[u8]])) {
     }
 }
 
-fn best_delimiter(sample: &[u8], layout: Layout) -> Delimiter {
+fn best_delimiter(sample: &[u8], layout: Layout, rules: Rules) -> Delimiter {
     let mut best = (Delimiter::Byte(b','), 0.0);
     for byte in *b",;\t|" {
         let delimiter = Delimiter::Byte(byte);
-        let score = fitness(sample, Layout { delimiter, ..layout });
+        let score = fitness(sample, Layout { delimiter, ..layout }, rules);
         if score > best.1 {
             best = (delimiter, score);
         }
     }
-    let blanks = fitness(sample, Layout { delimiter: Delimiter::Blanks, ..layout });
+    let blanks = fitness(sample, Layout { delimiter: Delimiter::Blanks, ..layout }, rules);
     if blanks > best.1 + BLANKS_HANDICAP || (best.1 == 0.0 && blanks > 0.0) { Delimiter::Blanks } else { best.0 }
 }
 
 /// How well a delimiter fits: the share of records with the usual number of cells, times the share of cells that
 /// read as numbers or times; 0 where the usual record has one cell.
-fn fitness(sample: &[u8], layout: Layout) -> f64 {
-    let point = Reading::new(false, &[]);
-    let comma = Reading::new(true, &[]);
+fn fitness(sample: &[u8], layout: Layout, rules: Rules) -> f64 {
+    let point = Reading::new(false, &[]).by(rules);
+    let comma = Reading::new(true, &[]).by(rules);
     let mut counts: Vec<usize> = Vec::new();
     let (mut cells_seen, mut cells_read) = (0.0, 0.0);
     for_records(sample, layout, |cells| {
@@ -147,7 +157,7 @@ fn fitness(sample: &[u8], layout: Layout) -> f64 {
             let cell = &raw[inner(raw, layout.quote)];
             let comma_fits = layout.delimiter != Delimiter::Byte(b',') && look(cell, &comma) != Look::Text;
             cells_seen += 1.0;
-            let unparted = glued(cell, layout.delimiter);
+            let unparted = rules == Rules::Second && glued(cell, layout.delimiter);
             cells_read += match look(cell, &point) {
                 _ if unparted => 0.0,
                 Look::Text if !comma_fits => 0.0,

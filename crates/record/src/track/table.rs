@@ -7,6 +7,7 @@ use super::sniff::{Look, look, most_frequent};
 use super::tokens::{Layout, Mark, OpenQuote, Record, RecordKind, Records, split};
 use super::{Delimiter, LoadOptions, names};
 
+mod aligned;
 mod header;
 mod rows;
 mod units;

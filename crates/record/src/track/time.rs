@@ -7,6 +7,7 @@ mod pattern;
 mod pieces;
 mod words;
 mod zone;
+mod zone_name;
 
 pub(crate) use form::{Numbers, digits_are_dates, number_form, order_of};
 pub use free::DateOrder;
@@ -16,13 +17,21 @@ pub(crate) use parts::{clock as part_clock, moment as parts_moment, written as p
 pub use pattern::Pattern;
 pub(crate) use pieces::{Field, Pieces};
 pub use zone::Zone;
+pub(crate) use zone_name::zone_in;
+
+/// True for the name of a month, or its beginning.
+pub(crate) fn is_month_name(word: &str) -> bool {
+    words::month(word.as_bytes()).is_some()
+}
 
 /// True for the name of a month.
 pub(crate) fn is_month(cell: &[u8]) -> bool {
     words::month(cell).is_some()
 }
 
-use super::calendar::{DAY, SECOND};
+use std::borrow::Cow;
+
+use super::calendar::{DAY, Date, SECOND};
 
 /// The zero of times that are counted from a known moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,6 +48,8 @@ pub enum Zero {
     Labview,
     /// The year 0, as Matlab counts days.
     Matlab,
+    /// So many seconds after 1970, as the file tells.
+    At(i64),
 }
 
 impl Zero {
@@ -52,18 +63,23 @@ impl Zero {
             Self::Gps => 3_657 * day,
             Self::Labview => -24_107 * day,
             Self::Matlab => -719_529 * day,
+            Self::At(seconds) => seconds,
         }
     }
 
     /// What is counted from it, in words.
-    pub(crate) fn words(self) -> &'static str {
-        match self {
+    pub(crate) fn words(self) -> Cow<'static, str> {
+        Cow::Borrowed(match self {
             Self::Spreadsheet => "since 1899-12-30, as in spreadsheets",
             Self::ModifiedJulian => "since 1858-11-17 (modified Julian)",
             Self::Julian => "Julian",
             Self::Gps => "since 1980-01-06 (GPS time)",
             Self::Labview => "since 1904-01-01 (LabVIEW)",
             Self::Matlab => "since the year 0 (Matlab)",
-        }
+            Self::At(seconds) => {
+                let date = Date::of_days(seconds.div_euclid(DAY / SECOND));
+                return Cow::Owned(format!("since {}-{:02}-{:02}", date.year, date.month, date.day));
+            }
+        })
     }
 }

@@ -75,6 +75,16 @@ pub(crate) fn iso(text: &[u8]) -> Option<i64> {
     moment(Date { year, month, day }, rest)
 }
 
+/// [`iso`] by the rules of [`super::Rules::First`], which know no `24:00`.
+pub(crate) fn iso_below_24(text: &[u8]) -> Option<i64> {
+    iso(text).filter(|_| !ends_a_day(text))
+}
+
+/// True for a date with the time of day `24:00`.
+pub(crate) fn ends_a_day(text: &[u8]) -> bool {
+    memchr::memmem::find(text, b"24:00").is_some_and(|at| at > 0 && matches!(text[at - 1], b'T' | b't' | b' '))
+}
+
 /// The order of day and month in a date with the year last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct YearLast {

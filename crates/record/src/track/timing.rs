@@ -41,6 +41,8 @@ pub(crate) struct Timing {
     pub(crate) of_week: bool,
     /// True for minutes and seconds alone.
     pub(crate) of_hour: bool,
+    /// True where the time of day `24:00` after a date is none.
+    pub(crate) below_24: bool,
 }
 
 /// A time as read: nanoseconds, or a number of seconds that has no exact nanoseconds.
@@ -58,6 +60,7 @@ impl Timing {
             said: Vec::new(),
             of_week: false,
             of_hour: false,
+            below_24: false,
         }
     }
 
@@ -117,7 +120,8 @@ impl Timing {
                 }
             }
             TimeFormat::Iso | TimeFormat::YearLast { .. } | TimeFormat::Clock if self.zone.is_none() => {
-                calendar(&self.format, single()).map(Count::Exact)
+                let told = calendar(&self.format, single())?;
+                (!self.below_24 || !timestamp::ends_a_day(single())).then_some(Count::Exact(told))
             }
             _ => self.other(&cell, decimal_comma).map(Count::Exact),
         }
@@ -192,9 +196,10 @@ fn since(text: &[u8], unit_ns: i64, zero_s: i64, decimal_comma: bool) -> Option<
         Some(Count::Inexact(value)) => {
             // More decimals than nanoseconds have, or days from far away: whole units apart from their decimals.
             let whole = value.trunc();
-            let units = (whole as i128) * i128::from(unit_ns) + i128::from(zero_s) * i128::from(SECOND);
+            let zero = i128::from(zero_s) * i128::from(SECOND);
+            let units = (whole as i128).checked_mul(i128::from(unit_ns))?.checked_add(zero)?;
             let part = ((value - whole) * unit_ns as f64 / 1e3).round() as i128 * 1000;
-            i64::try_from(units + part).ok()
+            i64::try_from(units.checked_add(part)?).ok()
         }
         None => None,
     }
@@ -250,7 +255,10 @@ fn undecided(head: &Head, column: usize, path: &Path) -> Error {
             printable(&head.names[column]),
             printable(cells.first().unwrap_or(&""))
         ),
-        help: "say which (--dates day-first or --dates month-first), choose another time column, or write dates as 2019-01-31".into(),
+        help:
+            "say which (--dates day-first or --dates month-first, or all of it with --time-format '%y/%m/%d'), choose \
+               another time column, or write dates as 2019-01-31"
+                .into(),
     }
 }
 

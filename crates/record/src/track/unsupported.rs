@@ -27,10 +27,18 @@ pub(crate) fn refuse_other_formats(body: &[u8], path: &Path) -> Result<()> {
         ),
         [b'<', ..] => refuse("markup (XML or HTML), not a table", "export the record as CSV"),
         [b'{', ..] => refuse("JSON, not a table", "export the record as CSV, one row for each time"),
-        _ if start.starts_with(b"ply") || start.starts_with(b"solid ") => {
-            refuse("a mesh, not a table", "export the record as CSV")
-        }
+        _ if is_mesh(start) => refuse("a mesh, not a table", "export the record as CSV"),
         _ => Ok(()),
+    }
+}
+
+/// The first lines of PLY, or of STL in text.
+fn is_mesh(start: &[u8]) -> bool {
+    let mut lines = start.split(|b| *b == b'\n').map(<[u8]>::trim_ascii);
+    match (lines.next(), lines.next()) {
+        (Some(b"ply"), Some(format)) => format.starts_with(b"format "),
+        (Some(solid), Some(facet)) => solid.starts_with(b"solid") && facet.starts_with(b"facet normal"),
+        _ => false,
     }
 }
 
@@ -253,12 +261,14 @@ mod tests {
             ("\n\nh1 CRD  1 2016  2 13 14\n", ":3: a laser ranging file"),
             ("<?xml version=\"1.0\"?>", "markup"),
             ("{\"a\": 1}", "JSON"),
+            ("ply\nformat ascii 1.0\n", "a mesh"),
+            ("solid wing\n facet normal 0 0 1\n", "a mesh"),
             (" \n", "the file is empty"),
         ] {
             let e = refuse_other_formats(text.as_bytes(), Path::new("x")).unwrap_err().to_string();
             assert!(e.contains(name), "{e}");
         }
-        for table in ["time,x\n", "$1,2\n", "h1 h2\n", "1,2\n"] {
+        for table in ["time,x\n", "solid content,time\n1,2\n", "ply,t\n0,1\n", "$1,2\n", "h1 h2\n", "1,2\n"] {
             assert!(refuse_other_formats(table.as_bytes(), Path::new("x")).is_ok(), "{table}");
         }
     }

@@ -72,12 +72,15 @@ fn hobo() -> Vec<Case> {
         Case {
             channel: "Temp, °F (LGR S/N: 10056829, SEN S/N: 10056829)",
             unit: "°F",
+            // Clocks five hours behind UTC.
+            start: "2021-03-04 15:00:00",
             asides: &["#", "Coupler Detached (LGR S/N: 10056829)"],
             ..case("a byte order mark", "HOBO", plain)
         },
         Case {
             channel: "Abs Pres, kPa (LGR S/N: 1)",
             unit: "kPa",
+            start: "2021-03-04 09:00:00",
             asides: &["column_1", "End Of File (LGR S/N: 1)"],
             windows: true,
             latin1: true,

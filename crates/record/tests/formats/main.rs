@@ -3,12 +3,14 @@
 
 #![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
 
+mod beside;
 mod case;
 mod edges;
 mod gnss;
 mod hostile;
 mod loggers;
 mod logs;
+mod phones;
 mod records;
 mod weather;
 
@@ -16,12 +18,22 @@ use case::{Case, wrong};
 use wildpoint_record::track::FORMATS;
 
 fn cases() -> Vec<Case> {
-    [loggers::cases(), weather::cases(), gnss::cases(), records::cases(), logs::cases()].into_iter().flatten().collect()
+    [loggers::cases(), weather::cases(), gnss::cases(), records::cases(), logs::cases(), phones::cases()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 #[test]
 fn files_of_every_format_are_understood_and_written_again() {
     let wrong: Vec<String> = cases().iter().filter_map(|c| Some(format!("{}: {}", c.name, wrong(c)?))).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn columns_beside_are_read_again_or_refused() {
+    let wrong: Vec<String> =
+        cases().iter().filter_map(|c| Some(format!("{}: {}", c.name, beside::wrong(c)?))).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 

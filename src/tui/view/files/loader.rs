@@ -34,19 +34,50 @@ pub(super) fn draw(model: &Model, form: &LoaderForm, area: Rect, buffer: &mut Bu
     let (what, style) = if form.stale { ("looking …", theme.warning) } else { (what, theme.dim) };
     lines.push(Line::styled(what, style));
     if let Some(Ok(seen)) = &form.seen {
-        // Little room is for what is wrong first, then for the rows.
-        let warnings = seen.warnings.iter().take(4).flat_map(|w| super::wrapped(w, width, theme.warning));
+        let room = Room::of(area.height);
+        let mut warnings: Vec<Line<'static>> =
+            seen.warnings.iter().take(4).flat_map(|w| super::wrapped(w, width, theme.warning)).collect();
+        warnings.truncate(room.warnings);
         lines.extend(warnings);
-        lines.extend(table(model, seen, width, if area.height < 30 { 3 } else { 8 }));
+        lines.extend(table(model, seen, width, room.rows));
+        lines.extend(file_lines(model, &around_header(&form.lines, room.file), width));
         lines.extend(seen.lines.iter().flat_map(|l| super::wrapped(l, width, theme.text)));
     } else {
         lines.extend(known(model, form.seen.as_ref(), width));
-    }
-    if !matches!(form.seen, Some(Ok(_))) || area.height >= 40 {
         lines.extend(file_lines(model, &form.lines, width));
     }
     rows(model, lines, 0, inside, buffer);
     choices
+}
+
+/// Lines for what is wrong, for rows in columns, and for the file as it is.
+struct Room {
+    warnings: usize,
+    rows: usize,
+    file: usize,
+}
+
+impl Room {
+    /// In a window of so many lines.
+    fn of(height: u16) -> Self {
+        match height {
+            0..30 => Self { warnings: 3, rows: 1, file: 4 },
+            30..40 => Self { warnings: 6, rows: 5, file: 8 },
+            _ => Self { warnings: 8, rows: 8, file: 12 },
+        }
+    }
+}
+
+/// At most so many lines: what stands right above the rows, and the first of these; the last one where it is no row.
+fn around_header(lines: &[FileLine], most: usize) -> Vec<FileLine> {
+    if lines.len() <= most {
+        return lines.to_vec();
+    }
+    let footer = lines.last().filter(|l| l.part == LinePart::Footer && most > 2);
+    let room = most - usize::from(footer.is_some());
+    let row = lines.iter().position(|l| l.part == LinePart::Row).unwrap_or(0);
+    let from = row.saturating_sub(room.saturating_sub(1)).min(lines.len() - room);
+    lines[from..from + room].iter().chain(footer).cloned().collect()
 }
 
 /// The first lines of the file, each in the style of what it is taken for.
@@ -58,6 +89,7 @@ fn file_lines(model: &Model, lines: &[FileLine], width: usize) -> Vec<Line<'stat
             LinePart::Header => ("names", theme.title),
             LinePart::Units => ("units", theme.warning),
             LinePart::Row => ("row", theme.text),
+            LinePart::Footer => ("below", theme.dim),
             LinePart::Unknown => ("", theme.text),
         };
         Line::styled(fit(&format!("{:>4} {word:5} {}", line.number, printable(&line.text)), width), style)

@@ -53,7 +53,7 @@ fn is_time_like(head: &Head, column: usize, name: &str, one_way: bool, timing: O
 }
 
 /// What a column is by all of its values.
-pub(super) fn by_values(name: &str, values: &[f64], _sampled: usize) -> Option<Aside> {
+pub(super) fn by_values(name: &str, values: &[f64]) -> Option<Aside> {
     let mut seen: Vec<f64> = Vec::new();
     let mut count = 0;
     for value in values.iter().filter(|v| !v.is_nan()) {
@@ -66,7 +66,8 @@ pub(super) fn by_values(name: &str, values: &[f64], _sampled: usize) -> Option<A
         }
     }
     if count < LEAST {
-        return None;
+        // A setting that stands in the first row alone.
+        return (values.len() >= LEAST && seen.len() == 1 && count * 10 <= values.len()).then_some(Aside::Constant);
     }
     match seen.as_slice() {
         [_] => Some(Aside::Constant),
@@ -99,14 +100,16 @@ pub(super) fn keep_one_channel(kinds: &mut [ColumnKind], is_time: &impl Fn(usize
     }
 }
 
-/// Where all columns were left aside by their values, the constant ones and flags are channels after all.
-pub(crate) fn release(kinds: &mut [ColumnKind]) {
+/// Where all columns were left aside by their values, the constant ones and flags are channels after all, as far as they
+/// were read into one of `slots`.
+pub(crate) fn release(kinds: &mut [ColumnKind], slots: &[Option<usize>]) {
     if kinds.contains(&ColumnKind::Number) {
         return;
     }
     for aside in [Aside::Flag, Aside::Constant] {
         let mut any = false;
-        kinds.iter_mut().filter(|k| **k == ColumnKind::Aside(aside)).for_each(|k| {
+        let read = kinds.iter_mut().zip(slots).filter(|(k, slot)| **k == ColumnKind::Aside(aside) && slot.is_some());
+        read.for_each(|(k, _)| {
             *k = ColumnKind::Number;
             any = true;
         });
@@ -183,7 +186,32 @@ fn is_quality(name: &str) -> bool {
     is_flag(name)
         || has_word(
             name,
-            &["quality", "qc", "qa", "qf", "qn", "qual", "status", "fix", "qcflag", "qflag", "eflag", "mode", "code"],
+            &[
+                "quality",
+                "qc",
+                "qa",
+                "qf",
+                "qn",
+                "qual",
+                "status",
+                "fix",
+                "qcflag",
+                "qflag",
+                "eflag",
+                "mode",
+                "code",
+                "güte",
+                "qualität",
+                "qualitätsbyte",
+                "qualité",
+                "calidad",
+                "qualidade",
+                "qualità",
+                "kwaliteit",
+                "jakości",
+                "jakość",
+                "kvalitet",
+            ],
         )
         || name == "Q"
 }

@@ -209,7 +209,7 @@ impl Session {
         // Nanoseconds are read from the digits: a double does not hold those of a day.
         let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
         let digits: String = fraction.chars().chain("000000000".chars()).take(9).collect();
-        let ns = whole.parse::<i64>().ok()? * SECOND + digits.parse::<i64>().ok()?;
+        let ns = whole.parse::<i64>().ok()?.checked_mul(SECOND)?.checked_add(digits.parse::<i64>().ok()?)?;
         (0..2 * DAY).contains(&ns).then(|| stamp(self.days, ns))
     }
 }

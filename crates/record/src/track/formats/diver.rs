@@ -17,6 +17,7 @@ pub(super) const FORMAT: Format = Format {
         unit: channels(text).into_iter().find(|c| c.name == name).map(|c| c.unit),
         aside: None,
     },
+    closed: true,
     ..PLAIN
 };
 

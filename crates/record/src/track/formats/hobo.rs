@@ -8,7 +8,7 @@ pub(super) const FORMAT: Format = Format {
     about: "exports of Onset loggers, as HOBOware writes them",
     known_by: "`Plot Title` in the first line, `LGR S/N` or `Date Time, GMT` in the names",
     maps: "units from the names (`Temp, °F (LGR S/N: …)`); `#` and what the logger notes beside the samples (`Logged`) \
-           are no channels; times are those of the zone in the header, as written",
+           are no channels; clocks are those of the zone in the header",
     known: |text| {
         let mut lines = text.lines().take(4);
         lines.any(|l| l.trim_start_matches(['\u{feff}', '"']).starts_with("Plot Title") || is_header(l))
@@ -42,11 +42,6 @@ fn complete(text: &str, known: &mut Known) {
     let header = line_where(text, is_header).or_else(|| line_where(text, |l| l.contains("Date") && l.contains("Time")));
     known.header(header);
     month_first_unless_shown(text, &mut known.options);
-    let line = header.and_then(|at| text.lines().nth(at)).unwrap_or("");
-    if let Some((_, zone)) = line.split_once("GMT") {
-        let zone: String = zone.chars().take_while(|c| c.is_ascii_digit() || matches!(c, '+' | '-' | ':')).collect();
-        known.said.push(format!("times are those of the zone GMT{zone}, as the file writes them"));
-    }
 }
 
 fn label(name: &str) -> Label {

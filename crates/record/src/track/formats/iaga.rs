@@ -9,6 +9,7 @@ pub(super) const FORMAT: Format = Format {
     maps: "date and time, 99999.00 and 88888.00 are no values",
     known: |text| text.lines().take(3).any(|l| l.contains("IAGA-2002")),
     complete,
+    closed: true,
     ..PLAIN
 };
 

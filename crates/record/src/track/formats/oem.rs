@@ -9,6 +9,7 @@ pub(super) const FORMAT: Format = Format {
     maps: "position and velocity below the keywords",
     known: |text| text.trim_start().starts_with("CCSDS_OEM_VERS"),
     complete,
+    closed: true,
     ..PLAIN
 };
 

@@ -37,7 +37,7 @@ fn complete(text: &str, known: &mut Known) {
         known.time(time);
     }
     if names.contains("\ttz_cd") {
-        known.said.push("times are those of the zones in `tz_cd`, as the file writes them".to_owned());
+        known.said.push("times are those of the zones in `tz_cd`, as the file writes them (--time-zone America/New_York, say, makes them UTC)".to_owned());
     }
 }
 

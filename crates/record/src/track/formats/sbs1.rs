@@ -10,6 +10,7 @@ pub(super) const FORMAT: Format = Format {
     maps: "date and time generated, a track for each `HexIdent`",
     known: |text| text.lines().take(5).any(|l| l.starts_with("MSG,") && l.matches(',').count() == 21),
     complete,
+    closed: true,
     ..PLAIN
 };
 

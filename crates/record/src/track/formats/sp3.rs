@@ -121,6 +121,8 @@ fn epoch(text: Piece<'_>) -> Option<String> {
     let whole = |at: usize| words.get(at)?.text().parse::<i64>().ok();
     let days = Date { year: whole(0)?, month: whole(1)?, day: whole(2)? }.days()?;
     #[expect(clippy::cast_possible_truncation, reason = "seconds of a minute")]
-    let ns = (words.get(5)?.number()? * 1e8).round() as i64 * 10;
-    Some(stamp(days, (whole(3)? * 60 + whole(4)?) * 60 * SECOND + ns))
+    let ns = (words.get(5)?.number().filter(|s| (0.0..=60.0).contains(s))? * 1e8).round() as i64 * 10;
+    let (hour, minute) = (whole(3)?, whole(4)?);
+    let in_day = (0..=24).contains(&hour) && (0..60).contains(&minute);
+    in_day.then(|| stamp(days, (hour * 60 + minute) * 60 * SECOND + ns))
 }

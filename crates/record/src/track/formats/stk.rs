@@ -9,6 +9,7 @@ pub(super) const FORMAT: Format = Format {
     maps: "seconds after the epoch, position and velocity",
     known: |text| text.trim_start().starts_with("stk.v."),
     complete,
+    closed: true,
     ..PLAIN
 };
 

@@ -13,6 +13,7 @@ pub(super) const FORMAT: Format = Format {
         second.contains("m version") && second.split_whitespace().count() >= 5
     },
     complete,
+    closed: true,
     ..PLAIN
 };
 

@@ -47,6 +47,10 @@ const MOST: usize = 12;
 /// The heading of the rows that begin at `first`. Comments are asked where no other line has names, or where they alone
 /// name a time.
 pub(crate) fn heading(lines: &[Line], first: usize, of: &Lines<'_>, reading: &Reading) -> Heading {
+    super::aligned::with_units(found(lines, first, of, reading), lines, first, of)
+}
+
+fn found(lines: &[Line], first: usize, of: &Lines<'_>, reading: &Reading) -> Heading {
     let plain = heading_among(lines, first, of, reading, false);
     let timed = |h: &Heading| h.names.iter().any(|n| names::time_rank(n) > 0);
     if plain.names_at.is_some() && timed(&plain) {

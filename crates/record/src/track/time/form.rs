@@ -27,6 +27,11 @@ pub(crate) fn order_of(cells: &[&str]) -> Option<DateOrder> {
     }
     let mut kept: Vec<&(DateOrder, Vec<Option<i64>>)> = all.iter().filter(|(_, m)| count(m) == most).collect();
     let same = kept.iter().all(|(_, m)| *m == kept[0].1);
+    if !same {
+        // An order that reads every cell as another one does tells nothing more.
+        kept =
+            (0..kept.len()).filter(|i| !kept[i + 1..].iter().any(|(_, m)| *m == kept[*i].1)).map(|i| kept[i]).collect();
+    }
     let suggested = || {
         let with = |text: &str| filled.iter().filter(|c| c.contains(text)).count() * 2 > filled.len();
         let half = |c: &&&str| {
@@ -62,6 +67,9 @@ pub(crate) fn order_of(cells: &[&str]) -> Option<DateOrder> {
     if let [(order, _)] = kept.as_slice() {
         return Some(*order);
     }
+    if let Some(order) = even(&kept) {
+        return Some(order);
+    }
     // A month of days is a likelier record than years of months.
     let span = |moments: &[Option<i64>]| {
         let (min, max) = (moments.iter().flatten().min(), moments.iter().flatten().max());
@@ -73,12 +81,31 @@ pub(crate) fn order_of(cells: &[&str]) -> Option<DateOrder> {
     kept.sort_by_key(|(_, m)| span(m));
     let [first, second, ..] = kept.as_slice() else { return None };
     // The name of a month stands between day and year, unless the steps show another order.
-    let named =
-        filled.iter().filter(|c| c.bytes().filter(u8::is_ascii_alphabetic).count() >= 3).count() * 2 > filled.len();
+    let named = filled.iter().filter(|c| c.split(|x: char| !x.is_alphabetic()).any(super::is_month_name)).count() * 2
+        > filled.len();
     if named && days.len() < 8 {
         return kept.iter().map(|(order, _)| *order).find(|o| *o == DateOrder::DayFirst);
     }
     (days.len() >= 8 && span(&first.1) < span(&second.1) / 2).then_some(first.0)
+}
+
+/// The only order in which samples of parts of a day follow each other without a jump.
+fn even(kept: &[&(DateOrder, Vec<Option<i64>>)]) -> Option<DateOrder> {
+    const FEW: usize = 8;
+    /// Longer than the usual step by so much is a jump.
+    const JUMP: i64 = 20;
+    let jumps = |moments: &[Option<i64>]| -> Option<usize> {
+        let known: Vec<i64> = moments.iter().flatten().copied().collect();
+        let steps: Vec<i64> = known.windows(2).map(|w| w[1].saturating_sub(w[0]).saturating_abs()).collect();
+        let mut sorted: Vec<i64> = steps.iter().copied().filter(|s| *s > 0).collect();
+        sorted.sort_unstable();
+        let usual = sorted.get(sorted.len() / 2).copied().filter(|usual| sorted.len() >= FEW && *usual < DAY)?;
+        Some(steps.iter().filter(|s| **s > usual.saturating_mul(JUMP)).count())
+    };
+    let counted: Vec<(DateOrder, usize)> =
+        kept.iter().map(|(order, m)| Some((*order, jumps(m)?))).collect::<Option<_>>()?;
+    let mut smooth = counted.iter().filter(|(_, jumps)| *jumps == 0);
+    smooth.next().filter(|_| smooth.next().is_none()).map(|(order, _)| *order)
 }
 
 /// Do most cells start with a date with points?
@@ -232,4 +259,23 @@ fn digits_are_clocks(numbers: &Numbers<'_>, rank: u8, words: &[String]) -> bool 
         w[1] > w[0] && a < 60.0 && b < a
     });
     reads && numbers.unit.is_none() && filled.len() > 1 && (named || (rank > 0 && filled.iter().all(six) && jumps))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_of_parts_of_a_day_tell_the_order_of_their_dates() {
+        let hourly = |write: &dyn Fn(usize, usize) -> String| -> Vec<String> {
+            (10..60).map(|h| write(4 + h / 24, h % 24)).collect()
+        };
+        let order = |cells: &[String]| order_of(&cells.iter().map(String::as_str).collect::<Vec<_>>());
+        // The letters of a zone are no month.
+        assert_eq!(order(&hourly(&|d, h| format!("03/{d:02}/2021 {h:02}:00 EST"))), Some(DateOrder::MonthFirst));
+        assert_eq!(order(&hourly(&|d, h| format!("{d:02}/03/2021 {h:02}:00"))), Some(DateOrder::DayFirst));
+        // One day says nothing.
+        let day: Vec<String> = (0..20).map(|h| format!("03/04/2021 {h:02}:00")).collect();
+        assert_eq!(order(&day), None);
+    }
 }

@@ -238,7 +238,10 @@ fn words_of(tokens: &Tokens<'_>, used: &mut [bool; MOST], pieces: &mut Pieces) -
         } else if dotted && clocked {
             pieces.push(Field::Half, token.start, token.end)?;
             used[at + 1..(at + 4).min(tokens.count)].fill(true);
-        } else if words::afternoon(word).is_some() && word.len() == 2 && clocked {
+        } else if words::afternoon(word).is_some()
+            && (word.len() == 2 || after_number && at + 1 == tokens.count)
+            && clocked
+        {
             pieces.push(Field::Half, token.start, token.end)?;
         } else if matches!(word, b"T" | b"t") && after_number && tokens.number(at + 1).is_some() {
             // Between date and time.

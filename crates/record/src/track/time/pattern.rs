@@ -1,5 +1,6 @@
 //! Times by a pattern that the user gives: the letters of `strftime`.
 
+use super::free::DateOrder;
 use super::pieces::{Field, Pieces};
 use super::words;
 use crate::error::{Error, Result};
@@ -56,6 +57,22 @@ impl Pattern {
             return Err(Error::usage(format!("`{text}` is no pattern of a time"), LETTERS));
         }
         Ok(Self { text: text.to_owned(), items })
+    }
+
+    /// The order of year, month and day in a pattern of these three alone.
+    pub(crate) fn date_order(&self) -> Option<DateOrder> {
+        let field = |item: &Item| match item {
+            Item::Digits(field, _) => Some(*field),
+            Item::Month => Some(Field::Month),
+            _ => None,
+        };
+        let fields: Vec<Field> = self.items.iter().filter_map(field).collect();
+        match fields.as_slice() {
+            [Field::Year | Field::YearOfCentury, Field::Month, Field::Day] => Some(DateOrder::YearFirst),
+            [Field::Day, Field::Month, Field::Year | Field::YearOfCentury] => Some(DateOrder::DayFirst),
+            [Field::Month, Field::Day, Field::Year | Field::YearOfCentury] => Some(DateOrder::MonthFirst),
+            _ => None,
+        }
     }
 
     fn letter(letter: Option<char>, rest: &mut std::str::Chars<'_>, items: &mut Vec<Item>) -> Option<()> {

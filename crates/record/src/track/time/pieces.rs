@@ -134,7 +134,7 @@ impl Pieces {
             Field::Month => of_date(|d| d.month),
             Field::Day => of_date(|d| d.day),
             Field::DayOfYear => days.zip(date).map_or_else(
-                || old.to_owned(),
+                || number(of_day / DAY),
                 |(days, d)| number(days - Date { month: 1, day: 1, ..d }.days().unwrap_or(days) + 1),
             ),
             Field::MonthName => date.map_or_else(|| old.to_owned(), |d| month_like(old, d.month)),
@@ -143,6 +143,7 @@ impl Pieces {
                 iso(days).map_or_else(|| old.to_owned(), |w| number(w.weekday().to_monday_one_offset().into()))
             }
             Field::Hour if self.has(Field::Half) => number(if hour % 12 == 0 { 12 } else { hour % 12 }),
+            Field::Hour if self.has(Field::DayOfYear) => number(hour % 24),
             Field::Hour => number(hour),
             Field::Minute if !self.has(Field::Hour) => number(seconds / 60),
             Field::Minute => number(seconds / 60 % 60),
@@ -288,6 +289,12 @@ impl Said {
             _ => return None,
         };
         let days = self.days()?;
+        // A day of the year without a year is time elapsed in the year.
+        let hour = match (days, self.day_of_year) {
+            (None, Some(day)) if (1..=366).contains(&day) && hour <= 24 => day * 24 + hour,
+            (None, Some(_)) => return None,
+            _ => hour,
+        };
         // A date has a day of 24 hours: 24:00 is the midnight that ends it.
         if days.is_some() && (hour > 24 || (hour == 24 && minute + second + self.fraction > 0)) || hour > 1_000_000 {
             return None;
@@ -300,11 +307,7 @@ impl Said {
     #[expect(clippy::option_option, reason = "no such date, or no date")]
     fn days(&self) -> Option<Option<i64>> {
         let Some(year) = self.year else {
-            return if self.month.is_none() && self.day.is_none() && self.day_of_year.is_none() {
-                Some(None)
-            } else {
-                None
-            };
+            return if self.month.is_none() && self.day.is_none() { Some(None) } else { None };
         };
         let first = || Date { year, month: 1, day: 1 }.days();
         if let Some(day) = self.day_of_year {

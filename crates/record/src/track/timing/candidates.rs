@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::super::head::Head;
-use super::super::time::{DateOrder, Numbers, Part, Pattern, Zone, number_form, order_of};
+use super::super::time::{DateOrder, Numbers, Part, Pattern, Zone, number_form, order_of, zone_in};
 use super::super::{LoadOptions, TimeFormat, Worded, names, printable};
 use super::form::{Form, numbers};
 use super::{Count, Timing, columns, undecided, unitless, unreadable};
@@ -127,14 +127,49 @@ impl<'a> Candidates<'a> {
             let what = format!("`{}` holds dates or times of day", printable(&self.head.names[column]));
             return Err(unitless(&what, word));
         }
-        timing.zone = self.options.time_zone.as_deref().map(Zone::find).transpose()?;
-        if let (Some(pattern), false) = (&self.options.time_format, matches!(timing.format, TimeFormat::Pattern(_))) {
+        timing.zone = match self.options.time_zone.as_deref() {
+            Some(told) => Some(Zone::find(told)?),
+            None => self.named_zone(&mut timing),
+        };
+        let fits = |pattern: &Pattern| match &timing.format {
+            TimeFormat::Pattern(_) => true,
+            TimeFormat::Parts(parts) => {
+                parts.iter().any(|p| matches!(p, Part::Date(o) if pattern.date_order() == Some(*o)))
+            }
+            _ => false,
+        };
+        if let Some(pattern) = self.options.time_format.as_ref().filter(|pattern| !fits(pattern)) {
             return Err(Error::usage(
                 format!("`{}` does not fit the pattern {}", printable(&self.head.names[timing.column]), pattern.text()),
                 format!("it holds {}; name another column with --time", self.example(timing.column)),
             ));
         }
         Ok(Some(timing))
+    }
+
+    /// The zone that the name or the unit of a column of the time tells, where its cells tell none.
+    fn named_zone(&self, timing: &mut Timing) -> Option<Zone> {
+        let local = match &timing.format {
+            TimeFormat::Iso | TimeFormat::YearLast { .. } | TimeFormat::Stamp { .. } => true,
+            TimeFormat::Pattern(pattern) => pattern.has_date(),
+            TimeFormat::Parts(parts) => parts.iter().any(|p| p.dates()) && !parts.contains(&Part::GpsWeek),
+            _ => false,
+        };
+        let head = self.head;
+        let in_cell = |cell: &&str| {
+            let pieces = super::fields(cell.as_bytes(), DateOrder::YearFirst);
+            pieces.and_then(|p| p.told(cell.as_bytes())).is_some_and(|t| t.offset.is_some())
+        };
+        if !local || head.column(timing.column).first().is_some_and(in_cell) {
+            return None;
+        }
+        let zoned =
+            |column: usize| Some((column, zone_in(&head.names[column]).or_else(|| zone_in(&head.units[column]))?));
+        let (column, name) = (0..head.names.len()).filter(|c| timing.has(*c)).find_map(zoned)?;
+        let zone = Zone::find(&name).ok()?;
+        let column = printable(&head.names[column]);
+        timing.said.push(format!("clocks are those of {name}, as `{column}` says (--time-zone names another zone)"));
+        Some(zone)
     }
 
     fn example(&self, column: usize) -> String {
@@ -285,7 +320,13 @@ impl<'a> Candidates<'a> {
         if let Form::Told { .. } = date_form
             && let Some(pattern) = &self.options.time_format
         {
-            return Ok(Timing::of(dated, None, TimeFormat::Pattern(Pattern::clone(pattern))));
+            // A pattern of dates, and clocks in a column of their own.
+            let clock = |order| {
+                let clock = date_column.filter(|date| *date != column).map(|_| column)?;
+                Some(Timing::of_parts(vec![dated, clock], vec![Part::Date(order), Part::Clock]))
+            };
+            let apart = pattern.date_order().and_then(clock);
+            return Ok(apart.unwrap_or_else(|| Timing::of(dated, None, TimeFormat::Pattern(Pattern::clone(pattern)))));
         }
         let clock = date_column.map(|_| self.forms[column]);
         let plain_clock = matches!(clock, None | Some(Some(Form::Clock)));
@@ -355,18 +396,47 @@ impl<'a> Candidates<'a> {
     }
 
     fn order(&self, column: usize, path: &Path) -> Result<DateOrder> {
+        self.date_order(column).ok_or_else(|| undecided(self.head, column, path))
+    }
+
+    /// The order of the dates of a column: by its name, by the cells, or by what else is written in the file as those do
+    /// who write dates so. None where nothing tells it.
+    pub(super) fn date_order(&self, column: usize) -> Option<DateOrder> {
         let cells = self.head.column(column);
         if let Some(day_first) = self.options.day_first {
-            let order = if day_first { DateOrder::DayFirst } else { DateOrder::MonthFirst };
-            return Ok(order);
+            return Some(if day_first { DateOrder::DayFirst } else { DateOrder::MonthFirst });
         }
-        named_order(&self.head.names[column])
-            .or_else(|| order_of(&cells))
-            .ok_or_else(|| undecided(self.head, column, path))
+        named_order(&self.head.names[column]).or_else(|| order_of(&cells)).or_else(|| self.customary(&cells))
+    }
+
+    /// Decimal commas are written where the day stands first, and clocks of twelve hours beside dates like 3/4/2021 where
+    /// the month does.
+    fn customary(&self, cells: &[&str]) -> Option<DateOrder> {
+        let reads = |order: DateOrder| {
+            let told = |c: &&str| super::fields(c.as_bytes(), order).and_then(|p| p.told(c.as_bytes())).is_some();
+            cells.iter().filter(|c| !c.is_empty()).all(told)
+        };
+        let halves = |column: usize| {
+            let half =
+                |c: &&&str| c.contains(':') && c.to_ascii_lowercase().trim_end_matches('m').ends_with(['a', 'p']);
+            let clocks = self.head.column(column);
+            clocks.iter().filter(half).count() * 2 > clocks.len()
+        };
+        let clock = |c: &usize| matches!(self.forms[*c], Some(Form::Clock | Form::OtherClock));
+        if self.head.reading.decimal_comma && reads(DateOrder::DayFirst) {
+            return Some(DateOrder::DayFirst);
+        }
+        let slashes = cells.iter().all(|c| c.is_empty() || c.contains('/'));
+        let twelve = slashes && (0..self.forms.len()).filter(clock).any(halves);
+        (twelve && reads(DateOrder::MonthFirst)).then_some(DateOrder::MonthFirst)
     }
 
     fn number_timing(&self, column: usize) -> Timing {
         let name = &self.head.names[column];
+        let named = self.options.time.as_ref() == Some(name) && self.options.time_unit.is_none();
+        if let Some((unit_ns, zero)) = self.head.counted.filter(|_| named) {
+            return Timing::of(column, None, TimeFormat::Since { unit_ns, zero });
+        }
         let cells: Vec<&str> =
             self.head.column(column).into_iter().filter(|c| !self.head.reading.is_marker(c.as_bytes())).collect();
         let values = numbers(self.head, column);

@@ -2,7 +2,7 @@
 
 use super::super::calendar::SECOND;
 use super::super::names;
-use super::super::time::{DateOrder, Part, order_of};
+use super::super::time::{DateOrder, Part};
 use super::Timing;
 use super::candidates::Candidates;
 use super::form::{Form, numbers};
@@ -41,7 +41,24 @@ const NAMES: [(&[&str], Named); 13] = [
     (&["sod", "secofday", "secondsofday", "secondofday", "tod", "utcsec", "secs_of_day"], Named::SecondOfDay),
     (&["week", "wk", "gpsweek", "wn", "gwk", "weekno", "weeknumber", "gps_week"], Named::Week),
     (
-        &["tow", "gpstow", "sow", "timeofweek", "secofweek", "secondsofweek", "gpssec", "gps_tow", "itow"],
+        &[
+            "tow",
+            "gpstow",
+            "sow",
+            "gpssow",
+            "timeofweek",
+            "gpstimeofweek",
+            "secofweek",
+            "secondsofweek",
+            "secondofweek",
+            "gpssec",
+            "gpssecs",
+            "gpssecond",
+            "gpsseconds",
+            "weeksec",
+            "weekseconds",
+            "itow",
+        ],
         Named::SecondOfWeek(0),
     ),
 ];
@@ -127,6 +144,10 @@ impl Found {
             }
             found.take(part, column);
         }
+        if found.day.is_none() && hours_after_day_of_year(c, first) {
+            let hour = Some(first + 2);
+            return Self { year: Some(first), day_of_year: Some(first + 1), hour, ..Self::default() };
+        }
         found
     }
 
@@ -177,6 +198,19 @@ impl Found {
         }
         start
     }
+}
+
+/// A year, a day of the year and a time of day like `1030` in columns from `first` on, as loggers write them that name no
+/// column.
+fn hours_after_day_of_year(c: &Candidates<'_>, first: usize) -> bool {
+    let (day, clock) = (first + 1, first + 2);
+    if !fits(c, first, Named::Year) || !fits(c, day, Named::DayOfYear) || !fits(c, clock, Named::Hour) {
+        return false;
+    }
+    let whole = |column: usize| numbers(c.head, column).iter().all(|v| v.fract() == 0.0);
+    let reads = |cell: &&str| super::super::time::part_clock(cell.as_bytes()).is_some();
+    let minutes = numbers(c.head, clock).iter().any(|v| *v > 24.0);
+    whole(day) && whole(clock) && minutes && c.head.column(clock).iter().all(reads)
 }
 
 /// A column of whole numbers that are times of day (`1030`), named like a time.
@@ -261,7 +295,7 @@ pub(super) fn told(c: &Candidates<'_>, places: &[usize]) -> Option<Timing> {
         let mut parts = Vec::new();
         for (i, place) in places.iter().enumerate() {
             let part = match c.forms[*place]? {
-                form if form.is_dated() => Part::Date(order_of(&c.head.column(*place))?),
+                form if form.is_dated() => Part::Date(c.date_order(*place)?),
                 Form::Clock | Form::OtherClock | Form::Duration => Part::Clock,
                 _ if super::super::time::digits_are_dates(&c.head.column(*place)) => Part::Date(DateOrder::YearFirst),
                 _ if i > 0 && parts.iter().any(|p| matches!(p, Part::Date(_))) => Part::Clock,
@@ -292,7 +326,7 @@ fn assembled(c: &Candidates<'_>, found: &Found) -> Option<Timing> {
     }
     let date = (0..c.forms.len()).find(|i| is_date(c, *i));
     if let Some(date) = date {
-        let order = order_of(&c.head.column(date))?;
+        let order = c.date_order(date)?;
         let timing = of(found.with_clock(c, vec![(date, Part::Date(order))]));
         // What is read as two columns of texts has a form of its own.
         return timing.filter(|t| {

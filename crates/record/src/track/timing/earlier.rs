@@ -28,11 +28,13 @@ impl Form {
             !cells.is_empty() && cells.iter().filter(|c| reads(c)).count() * 2 >= cells.len()
         };
         let date_only = || most(&|c| !c.contains(&b':'));
-        if most(&|c| timestamp::iso(c).is_some()) {
+        if most(&|c| timestamp::iso_below_24(c).is_some()) {
             Some(Self::Iso { date_only: date_only() })
         } else if most(&|c| timestamp::clock(c).is_some()) {
             Some(Self::Clock)
-        } else if most(&|c| [true, false].iter().any(|first| timestamp::year_last(c, *first).is_some())) {
+        } else if most(&|c| {
+            [true, false].iter().any(|first| timestamp::year_last(c, *first).is_some() && !timestamp::ends_a_day(c))
+        }) {
             Some(Self::YearLast { date_only: date_only() })
         } else if most(&|c| timestamp::count(c, 1, head.reading.decimal_comma).is_some()) {
             Some(Self::Number)
@@ -79,13 +81,13 @@ pub(super) fn choose(head: &Head, options: &LoadOptions, path: &Path) -> Result<
         Form::YearLast { .. } => TimeFormat::YearLast { day_first: day_first(head, dated, options, path)? },
         Form::Number => number_format(head, column, options.time_unit),
     };
-    Ok(Some(Timing::of(column, date_column, format)))
+    Ok(Some(Timing { below_24: true, ..Timing::of(column, date_column, format) }))
 }
 
 fn best(head: &Head) -> Option<(usize, Form)> {
     let scored = head.names.iter().enumerate().filter_map(|(column, name)| {
         let form = Form::of(head, column)?;
-        let rank = names::earlier_time_rank(name);
+        let rank = names::earlier::time_rank(name);
         let content = match form {
             Form::Iso { .. } => 5,
             Form::Clock | Form::YearLast { .. } if rank > 0 => 3,
@@ -133,7 +135,10 @@ fn runs_forward(head: &Head, column: usize) -> bool {
 /// numbers where that and name or steps make dates from 1990 to 2100.
 fn number_format(head: &Head, column: usize, told: Option<TimeUnit>) -> TimeFormat {
     let name = &head.names[column];
-    let of_column = || names::time_unit_ns(&head.units[column]).or_else(|| names::time_unit_ns(&names::unit_of(name)));
+    let of_column = || {
+        names::earlier::time_unit_ns(&head.units[column])
+            .or_else(|| names::earlier::time_unit_ns(&names::earlier::unit_of(name)))
+    };
     let told = told.map(|unit| unit.ns);
     let unit = told.or_else(of_column);
     let mut values = numbers(head, column);
@@ -149,7 +154,7 @@ fn number_format(head: &Head, column: usize, told: Option<TimeUnit>) -> TimeForm
         #[expect(clippy::cast_precision_loss, reason = "a power of ten")]
         let unit = unit_ns as f64 / 1e9;
         let (value, step) = (typical * unit, step * unit);
-        let plausible = names::earlier_time_rank(name) > 0 || (1e-6..864_000.0).contains(&step);
+        let plausible = names::earlier::time_rank(name) > 0 || (1e-6..864_000.0).contains(&step);
         (631_152_000.0..4_102_444_800.0).contains(&value) && plausible
     };
     // GPS time has another zero and no leap seconds.
