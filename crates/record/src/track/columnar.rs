@@ -3,7 +3,7 @@
 //! Such a file is read as the CSV text that says the same ([`text`]), so that everything that is done with text is done
 //! with it. Its cleaned copy is such a file again ([`copy`]), in which what no repair touches stays byte for byte.
 
-mod bytes;
+mod access;
 mod copy;
 mod encode;
 mod errors;
@@ -22,3 +22,6 @@ mod write;
 pub(crate) use settle::{refuse_layout, settle, with_layout};
 pub(crate) use text::{known, unpack};
 pub use write::{FlagForm, is_columns_name, names_columns, write_columns};
+
+#[cfg(test)]
+mod tests;

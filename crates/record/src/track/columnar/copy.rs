@@ -17,7 +17,7 @@ use super::super::rewrite::{cell_text, new_row_cells};
 use super::super::rows::unchanged;
 use super::super::text::path_of;
 use super::super::{Changes, Track};
-use super::bytes::FileBytes;
+use super::access::FileBytes;
 use super::encode::{Encoded, Form};
 use super::errors::{broken, of_file};
 use super::flags::{encoded, field};

@@ -12,7 +12,7 @@ use parquet::file::properties::{WriterProperties, WriterVersion};
 use parquet::file::writer::{SerializedPageWriter, TrackedWrite};
 use parquet::schema::types::ColumnDescPtr;
 
-use super::bytes::Chunk;
+use super::access::Chunk;
 use super::pages::{ZstdWriter, page_reader};
 use super::recode::Levelled;
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bytes::Bytes;
-use parquet::basic::Compression;
+use parquet::basic::{Compression, Encoding};
 use parquet::column::page::{CompressedPage, Page, PageMetadata, PageReader, PageWriteSpec, PageWriter};
 use parquet::column::reader::{ColumnReader, get_column_reader};
 use parquet::errors::{ParquetError, Result};
@@ -11,7 +11,7 @@ use parquet::file::metadata::ColumnChunkMetaData;
 use parquet::file::serialized_reader::SerializedPageReader;
 
 use super::super::packing::{zstd_packed, zstd_unpacked};
-use super::bytes::Chunk;
+use super::access::Chunk;
 use super::schema::dictionary_offset;
 
 /// The values of a chunk.
@@ -27,26 +27,44 @@ pub(super) fn page_reader(chunk: Chunk, about: &ColumnChunkMetaData, rows: usize
         builder = builder.set_compression(Compression::UNCOMPRESSED);
     }
     let pages = SerializedPageReader::new(Arc::new(chunk), &builder.build()?, rows, None)?;
-    if !zstd {
-        return Ok(Box::new(pages));
-    }
     let most = u64::try_from(about.uncompressed_size())?;
-    Ok(Box::new(ZstdPages { pages: Box::new(pages), most }))
+    Ok(Box::new(Pages { pages: Box::new(pages), zstd: zstd.then_some(most), dictionary: false }))
 }
 
-/// Pages that are packed by Zstandard.
-struct ZstdPages {
+/// What `read` gives; an error where the library gives up on a file that says what cannot be.
+pub(super) fn guarded<T>(read: impl FnOnce() -> Result<T>) -> Result<T> {
+    let read = std::panic::catch_unwind(std::panic::AssertUnwindSafe(read));
+    read.unwrap_or_else(|_| Err(ParquetError::General("it says what cannot be".into())))
+}
+
+/// The pages of a chunk, looked at before they are read.
+struct Pages {
     pages: Box<dyn PageReader>,
-    /// No page has more bytes.
-    most: u64,
+    /// Where pages are packed by Zstandard: no page has more bytes.
+    zstd: Option<u64>,
+    /// True when the dictionary has been met.
+    dictionary: bool,
 }
 
-impl ZstdPages {
-    fn unpacked(&self, page: Page) -> Result<Page> {
+impl Pages {
+    fn checked(&mut self, page: &Page) -> Result<()> {
+        let coded = matches!(page.encoding(), Encoding::PLAIN_DICTIONARY | Encoding::RLE_DICTIONARY);
+        match page {
+            Page::DictionaryPage { .. } if self.dictionary => Err(ParquetError::General("two dictionaries".into())),
+            Page::DictionaryPage { .. } => {
+                self.dictionary = true;
+                Ok(())
+            }
+            _ if coded && !self.dictionary => Err(ParquetError::General("a dictionary is missing".into())),
+            _ => Ok(()),
+        }
+    }
+
+    fn unpacked(&self, page: Page, most: u64) -> Result<Page> {
         let unpack = |packed: &[u8], levels: &[u8]| -> Result<Bytes> {
             let mut bytes = levels.to_vec();
             if !packed.is_empty() {
-                bytes.extend(zstd_unpacked(packed, self.most)?);
+                bytes.extend(zstd_unpacked(packed, most)?);
             }
             Ok(bytes.into())
         };
@@ -94,7 +112,7 @@ fn parted(page: &[u8], def_levels: u32, rep_levels: u32) -> Result<(&[u8], &[u8]
     page.split_at_checked(levels).ok_or_else(|| ParquetError::General("a page is shorter than its levels".into()))
 }
 
-impl Iterator for ZstdPages {
+impl Iterator for Pages {
     type Item = Result<Page>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -102,10 +120,11 @@ impl Iterator for ZstdPages {
     }
 }
 
-impl PageReader for ZstdPages {
+impl PageReader for Pages {
     fn get_next_page(&mut self) -> Result<Option<Page>> {
-        let page = self.pages.get_next_page()?;
-        page.map(|page| self.unpacked(page)).transpose()
+        let Some(page) = self.pages.get_next_page()? else { return Ok(None) };
+        self.checked(&page)?;
+        self.zstd.map_or(Ok(page.clone()), |most| self.unpacked(page, most)).map(Some)
     }
 
     fn peek_next_page(&mut self) -> Result<Option<PageMetadata>> {

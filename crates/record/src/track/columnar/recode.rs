@@ -9,11 +9,11 @@ use parquet::file::metadata::ColumnChunkMetaData;
 use parquet::schema::types::ColumnDescPtr;
 
 use super::super::packing::Unpackable;
-use super::bytes::Chunk;
+use super::access::Chunk;
 use super::encode::{Encoded, Form, encode};
 use super::errors::broken;
 use super::kind::Kind;
-use super::pages::column_reader;
+use super::pages::{column_reader, guarded};
 use super::parse::Storage;
 use super::value::{Stored, Value};
 
@@ -72,9 +72,9 @@ impl Recoding<'_> {
     where
         T::T: Stored,
     {
-        let form = Form::of(&chunk, self.about, self.rows).map_err(|e| broken(&e))?;
-        let reader = column_reader(chunk, self.about, self.rows).map_err(|e| broken(&e))?;
-        let old = Levelled::<T>::read(get_typed_column_reader(reader), self).map_err(|e| broken(&e))?;
+        let form = guarded(|| Form::of(&chunk, self.about, self.rows)).map_err(|e| broken(&e))?;
+        let read = || Levelled::<T>::read(get_typed_column_reader(column_reader(chunk, self.about, self.rows)?), self);
+        let old = guarded(read).map_err(|e| broken(&e))?;
         let new = self.edited(old)?;
         encode(self.target.clone(), &form, &new).map_err(|e| broken(&e))
     }

@@ -6,9 +6,10 @@ use parquet::basic::Compression;
 use parquet::file::metadata::{ColumnChunkMetaData, PageIndexPolicy, ParquetMetaData, ParquetMetaDataReader};
 
 use super::super::packing::Unpackable;
-use super::bytes::{Chunk, FileBytes};
+use super::access::{Chunk, FileBytes};
 use super::errors::{broken, damaged, encrypted, unread_codec};
 use super::kind::Kind;
+use super::pages::guarded;
 use parquet::file::reader::ChunkReader as _;
 
 /// A column of one value in each row.
@@ -46,7 +47,7 @@ impl Schema {
             return Err(encrypted());
         }
         let reader = ParquetMetaDataReader::new().with_page_index_policy(PageIndexPolicy::Optional);
-        let metadata = reader.parse_and_finish(file).map_err(|e| broken(&e))?;
+        let metadata = guarded(|| reader.parse_and_finish(file)).map_err(|e| broken(&e))?;
         let (mut flat, mut nested) = (Vec::new(), BTreeSet::new());
         let descriptor = metadata.file_metadata().schema_descr();
         for (leaf, column) in descriptor.columns().iter().enumerate() {

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::super::style::Style;
 use super::super::text::path_of;
 use super::super::{Delimiter, LoadOptions, Source, Track, printable};
-use super::bytes::FileBytes;
+use super::access::FileBytes;
 use super::errors::of_file;
 use super::schema::Schema;
 use crate::error::{Error, Result};

@@ -180,6 +180,8 @@ impl Looks {
         match reading.cell(text.trim().as_bytes()) {
             Cell::Missing => {}
             Cell::Number(_) if text.parse::<i64>().is_ok_and(|n| n.to_string() == text) => self.wholes += 1,
+            // Zeros that no number needs belong to a name.
+            Cell::Number(_) if matches!(text.trim().as_bytes(), [b'0', b'0'..=b'9', ..]) => self.texts += 1,
             Cell::Number(_) => self.numbers += 1,
             Cell::Infinite | Cell::Text => self.texts += 1,
         }

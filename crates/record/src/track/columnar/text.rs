@@ -6,10 +6,10 @@ use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 
 use super::super::packing::{Look, Stream, Unpackable};
-use super::bytes::FileBytes;
+use super::access::FileBytes;
 use super::errors::{broken, damaged};
 use super::kind::Kind;
-use super::pages::column_reader;
+use super::pages::{column_reader, guarded};
 use super::schema::Schema;
 use super::value::Stored;
 use crate::memory::{Full, Share};
@@ -107,7 +107,7 @@ impl Text<'_> {
             return Ok(true);
         }
         let rows = self.left.min(BATCH);
-        self.columns.iter_mut().try_for_each(|column| column.take(rows)).map_err(failed)?;
+        guarded(|| self.columns.iter_mut().try_for_each(|column| column.take(rows))).map_err(failed)?;
         self.out.clear();
         self.given = 0;
         for row in 0..rows {
@@ -148,7 +148,7 @@ impl Text<'_> {
         if rows > 0 {
             for flat in &self.schema.flat {
                 let chunk = self.schema.chunk(&self.file, self.group, flat.leaf).map_err(|e| failed_with(&e.what))?;
-                let reader = column_reader(chunk, group.column(flat.leaf), rows).map_err(failed)?;
+                let reader = guarded(|| column_reader(chunk, group.column(flat.leaf), rows)).map_err(failed)?;
                 let nullable = group.column(flat.leaf).column_descr().max_def_level();
                 self.columns.push(Column {
                     reader,
