@@ -106,14 +106,19 @@ pub(super) fn stage(
             summary.notes.extend(nameless(track, flags));
         }
         let mut text = None;
-        files.stage(path, |w| match (&flags, columns) {
+        let write = |w: &mut dyn Write| match (&flags, columns) {
             (None, true) => write_columns(track, &changes, None, w),
             (Some((scheme, flags)), true) => write_flagged_columns(track, (&changes, flags), scheme, w),
             (None, false) => write_cleaned(track, &changes, w).map(|sha256| text = Some(sha256)),
             (Some((scheme, flags)), false) => {
                 write_flagged(track, (&changes, flags), scheme, w).map(|sha256| text = Some(sha256))
             }
-        })?;
+        };
+        if columns {
+            files.stage_columns(path, write)?
+        } else {
+            files.stage(path, write)?
+        }
         // Of the table as text, whatever form it has.
         summary.clean_sha256 = Some(match text {
             Some(sha256) => sha256,

@@ -234,7 +234,7 @@ pub fn export(track: &Track, session: &Session, outputs: &[Output], overwrite: b
     for Output { kind, path } in outputs {
         match kind {
             OutputKind::Cleaned if is_columns_name(path, track) => {
-                files.stage(path, |w| write_columns(track, &changes, None, w))
+                files.stage_columns(path, |w| write_columns(track, &changes, None, w))
             }
             OutputKind::Cleaned => files.stage(path, |w| write_cleaned(track, &changes, w).map(|_| ())),
             OutputKind::Flags => files.stage(path, |w| report::flags(track, session, &analysed, w)),

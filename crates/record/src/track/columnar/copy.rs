@@ -1,6 +1,6 @@
 //! A Parquet file again, with changes: chunks without one are copied byte for byte.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -194,12 +194,29 @@ impl Copy<'_, '_> {
 
     /// What is different in a chunk of these rows.
     fn edits(&self, place: Option<usize>, rows: &Range<usize>) -> Edits {
-        let within = |row: u32| rows.contains(&(row as usize)).then(|| row as usize - rows.start);
-        let cells = self.changes.cells.iter().filter(|c| Some(c.column) == place);
-        let cells = cells.filter_map(|c| Some((within(c.row)?, c.value))).collect();
-        let text = |cells: &Vec<String>| place.and_then(|p| cells.get(p)).filter(|text| !text.is_empty()).cloned();
-        let new = self.changes.rows.iter().zip(&self.new_cells);
-        Edits { cells, rows: new.filter_map(|(row, cells)| Some((within(row.after_row)?, text(cells)))).collect() }
+        let cells = &self.changes.cells;
+        let here = cells.partition_point(|c| (c.row as usize) < rows.start)
+            ..cells.partition_point(|c| (c.row as usize) < rows.end);
+        let cells = cells[here].iter().filter(|c| Some(c.column) == place);
+        let text = |index: usize| {
+            let text = place.and_then(|place| self.new_cells[index].get(place));
+            text.filter(|text| !text.is_empty()).cloned()
+        };
+        Edits {
+            cells: cells.map(|c| (c.row as usize - rows.start, c.value)).collect(),
+            rows: self.new_rows(rows).map(|i| (self.after(i) - rows.start, text(i))).collect(),
+        }
+    }
+
+    /// The new rows that follow one of these rows.
+    fn new_rows(&self, rows: &Range<usize>) -> Range<usize> {
+        let before = |end: usize| self.changes.rows.partition_point(|new| (new.after_row as usize) < end);
+        before(rows.start)..before(rows.end)
+    }
+
+    /// The row that a new row follows.
+    fn after(&self, index: usize) -> usize {
+        self.changes.rows[index].after_row as usize
     }
 
     /// Writes the flags of the rows of a group.
@@ -211,18 +228,19 @@ impl Copy<'_, '_> {
     ) -> std::result::Result<(), Unpackable> {
         let Some(flags) = self.flags else { return Ok(()) };
         let form = Form::usual(self.compression());
-        let new: BTreeMap<usize, Vec<usize>> =
-            self.changes.rows.iter().enumerate().fold(BTreeMap::new(), |mut all, (i, new)| {
-                all.entry(new.after_row as usize).or_default().push(i);
-                all
-            });
+        let new = self.new_rows(rows);
         let first = descriptor.num_columns() - flags.columns.len();
         for (i, column) in flags.columns.iter().enumerate() {
-            let texts = rows.clone().flat_map(|row| {
-                let added = new.get(&row).into_iter().flatten().map(|index| column.of_new(*index));
-                std::iter::once(column.of_row(row)).chain(added)
-            });
-            let encoded = encoded(descriptor.column(first + i), &form, flags.whole, texts).map_err(|e| broken(&e))?;
+            let mut added = new.clone().peekable();
+            let mut texts = Vec::with_capacity(rows.len() + new.len());
+            for row in rows.clone() {
+                texts.push(column.of_row(row));
+                while let Some(index) = added.next_if(|index| self.after(*index) == row) {
+                    texts.push(column.of_new(index));
+                }
+            }
+            let encoded =
+                encoded(descriptor.column(first + i), &form, flags.whole, texts.into_iter()).map_err(|e| broken(&e))?;
             append(writer, encoded)?;
         }
         Ok(())
