@@ -2,8 +2,9 @@ use super::*;
 
 const ROWS: usize = 40;
 
-/// Three row groups of a time, doubles with nulls, whole numbers and texts.
+/// Three row groups of a time, doubles with nulls, whole numbers and texts, in pages of a few rows, as no copy has them.
 fn three_groups(form: WriterPropertiesBuilder) -> Vec<u8> {
+    let form = form.set_data_page_row_count_limit(9).set_write_batch_size(3);
     let schema = "message m { required int64 time (TIMESTAMP(MICROS,true)); optional double x; required int64 n;
         required binary s (STRING); }";
     let group = |first: usize| {
