@@ -281,7 +281,7 @@ fn scheme() -> impl TypedValueParser<Value = &'static Scheme> {
 }
 
 fn scheme_help() -> String {
-    let schemes: Vec<String> = SCHEMES.iter().map(|scheme| format!("{} ({})", scheme.id, scheme.about)).collect();
+    let schemes: Vec<String> = SCHEMES.iter().map(|scheme| format!("{} ({})", scheme.id, scheme.about())).collect();
     let what = "Add columns of flags at the right of the cleaned file, COLUMN_flag for each judged column";
     format!("{what}: {}", schemes.join("; "))
 }
@@ -340,7 +340,8 @@ pub struct Shared {
 /// What to write, and how.
 #[derive(Debug, Clone, Default, Args)]
 pub struct OutputArgs {
-    /// Write the cleaned file: the input again, only repaired and removed cells differ.
+    /// Write the cleaned file: the input again, only repaired and removed cells differ; as Parquet where the name ends
+    /// in .parquet.
     #[arg(short, long, value_name = "CLEANED")]
     pub output: Option<PathBuf>,
     /// Columns of flags in the cleaned file.

@@ -11,10 +11,11 @@ use crate::cli::{OutputArgs, Shared};
 use crate::error::{Error, Result};
 use crate::report::{Summary, diagnostics, flags, report};
 use crate::session::{
-    Analysed, FlagColumn, Plan, Session, Setup, changed, document, flag_columns, write_cleaned, write_flagged,
+    Analysed, FlagColumn, Plan, Session, Setup, changed, clean_sha256, document, flag_columns, write_cleaned,
+    write_flagged, write_flagged_columns,
 };
 use crate::stop::Stop;
-use crate::track::{Outputs, Source, Track, load, printable};
+use crate::track::{Outputs, Source, Track, is_columns_name, load, printable, write_columns};
 
 pub(super) fn run(
     files: &[PathBuf],
@@ -99,19 +100,30 @@ pub(super) fn stage(
 ) -> Result<()> {
     if let Some(path) = &outputs.output {
         let changes = analysed.changes(track);
-        let mut sha256 = None;
-        files.stage(path, |w| {
-            sha256 = Some(match outputs.flag_columns {
-                None => write_cleaned(track, &changes, w)?,
-                Some(scheme) => {
-                    let flags = flag_columns(track, analysed);
-                    summary.notes.extend(nameless(track, &flags));
-                    write_flagged(track, (&changes, &flags), scheme, w)?
-                }
-            });
-            Ok(())
-        })?;
-        summary.clean_sha256 = sha256;
+        let flags = outputs.flag_columns.map(|scheme| (scheme, flag_columns(track, analysed)));
+        let columns = is_columns_name(path, track);
+        if let Some((_, flags)) = flags.as_ref().filter(|_| !columns) {
+            summary.notes.extend(nameless(track, flags));
+        }
+        let mut text = None;
+        let write = |w: &mut dyn Write| match (&flags, columns) {
+            (None, true) => write_columns(track, &changes, None, w),
+            (Some((scheme, flags)), true) => write_flagged_columns(track, (&changes, flags), scheme, w),
+            (None, false) => write_cleaned(track, &changes, w).map(|sha256| text = Some(sha256)),
+            (Some((scheme, flags)), false) => {
+                write_flagged(track, (&changes, flags), scheme, w).map(|sha256| text = Some(sha256))
+            }
+        };
+        if columns {
+            files.stage_columns(path, write)?
+        } else {
+            files.stage(path, write)?
+        }
+        // Of the table as text, whatever form it has.
+        summary.clean_sha256 = Some(match text {
+            Some(sha256) => sha256,
+            None => clean_sha256(track, &changes)?,
+        });
     }
     if let Some(path) = &outputs.changed {
         files.stage(path, |w| changed(track, session, analysed, w))?;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::OutputArgs;
 use crate::error::{Error, Result};
 use crate::report::ReportForm;
-use crate::track::unpacked_name;
+use crate::track::{names_columns, unpacked_name};
 
 /// Where the outputs of one input go.
 #[derive(Debug, Clone)]
@@ -58,6 +58,7 @@ pub(super) fn targets(
             ));
         }
     }
+    refuse_columns(outputs, session)?;
     // Known before anything is computed: the ending of a report says its form.
     if let Some(report) = outputs.report.as_deref().filter(|path| !is_folder(path, several)) {
         ReportForm::of(report)?;
@@ -96,6 +97,27 @@ pub(super) fn targets(
     }
     Ok(targets)
 }
+
+/// Refuses names of Parquet files for what is none.
+fn refuse_columns(outputs: &OutputArgs, session: Option<&Path>) -> Result<()> {
+    let packed = outputs.output.as_deref().filter(|path| unpacked_name(&file_name(path)).1.is_some());
+    let tables = [
+        ("--output", packed, "a Parquet file packs its columns itself", "leave the last ending out"),
+        ("--changed", outputs.changed.as_deref(), ONLY_CLEANED, AS_CSV),
+        ("--flags", outputs.flags.as_deref(), ONLY_CLEANED, AS_CSV),
+        ("--diagnostics", outputs.diagnostics.as_deref(), ONLY_CLEANED, AS_CSV),
+        ("--save-session", session, ONLY_CLEANED, "give it a name that ends in .toml"),
+    ];
+    for (option, path, why, help) in tables {
+        if let Some(path) = path.filter(|path| names_columns(path)) {
+            return Err(Error::usage(format!("{option} {}: {why}", path.display()), help));
+        }
+    }
+    Ok(())
+}
+
+const ONLY_CLEANED: &str = "only the cleaned file (-o) can be a Parquet file";
+const AS_CSV: &str = "give it a name that ends in .csv";
 
 /// The name of a file, for its cleaned version.
 pub(super) fn file_name(path: &Path) -> String {

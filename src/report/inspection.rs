@@ -340,6 +340,9 @@ pub fn layout(track: &Track) -> String {
         Encoding::Utf16 { .. } => "UTF-16",
         Encoding::Latin1 => "Windows-1252",
     };
+    if let Some(packing) = d.packing.filter(|packing| packing.is_columnar()) {
+        return format!("columns of {}", packing.name);
+    }
     if let Some(view) = &d.view {
         let packed = d.packing.map_or(String::new(), |packing| format!(", {}", packing.name));
         return format!("records of {}, {encoding}{packed}", view.format.name);

@@ -33,7 +33,7 @@ pub use decisions::decisions;
 pub use digest::Digest;
 pub use document::{parse, read, render};
 pub use edit::Edit;
-pub use flag_columns::{FlagColumn, flag_columns, write_flagged};
+pub use flag_columns::{FlagColumn, flag_columns, write_flagged, write_flagged_columns};
 pub use position::position_check;
 pub use replay::{Accepted, Analysed, Appended, Grown, Opened, check, open, open_all};
 pub use save::{document, document_without_record};

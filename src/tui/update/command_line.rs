@@ -15,7 +15,7 @@ const WITH_SESSION: &str = "Decisions, and channels set up differently, are in t
 
 /// Shows the line, and copies it to the clipboard of the terminal.
 pub(super) fn show(model: &mut Model, output: Option<PathBuf>) -> Vec<Effect> {
-    let output = output.unwrap_or_else(|| default_export(&model.track.source));
+    let output = output.unwrap_or_else(|| default_export(&model.track));
     let (line, about) = match clean_command(&model.document(), &model.track, &output) {
         Some(line) => (line, ALONE),
         None => match saved(model).map(|session| replay_command(session, &output)) {

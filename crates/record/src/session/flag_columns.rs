@@ -10,7 +10,8 @@ use super::{Analysed, Outcome, Place};
 use crate::error::Result;
 use crate::method::Verdict;
 use crate::track::{
-    Cell, Cells, Changes, Channel, NewColumn, NewRow, Reading, Samples, TimeAxis, Track, hex, rewrite_beside,
+    Cell, Cells, Changes, Channel, FlagForm, NewColumn, NewRow, Reading, Samples, TimeAxis, Track, hex, rewrite_beside,
+    write_columns,
 };
 
 /// The flags of one column of the file.
@@ -105,6 +106,31 @@ fn judged(
     }
 }
 
+/// Gives the columns of flags to `write`, as they are added to a table.
+fn with_columns<T>(
+    track: &Track,
+    flags: &[FlagColumn],
+    scheme: &Scheme,
+    write: impl FnOnce(&[NewColumn<'_>]) -> Result<T>,
+) -> Result<T> {
+    let reading = Reading::new(track.dialect.decimal_comma, &track.dialect.missing);
+    let cells: Vec<_> = flags
+        .iter()
+        .map(|flag| {
+            let reading = &reading;
+            let cell = move |row: usize, cells: &Cells<'_>| scheme.code(flag.quality(row, cells, reading)).to_owned();
+            let new_row = move |new: &NewRow| {
+                let filled = new.cells.iter().any(|(column, _)| *column == flag.column);
+                scheme.code(if filled { Quality::Filled } else { Quality::Missing }).to_owned()
+            };
+            (flag.name.clone(), cell, new_row)
+        })
+        .collect();
+    let columns: Vec<NewColumn<'_>> =
+        cells.iter().map(|(name, cell, new_row)| NewColumn { name: name.clone(), cell, new_row }).collect();
+    write(&columns)
+}
+
 /// Writes the cleaned file with columns of flags at its right and gives the SHA-256 of what was written.
 ///
 /// # Errors
@@ -116,21 +142,29 @@ pub fn write_flagged(
     scheme: &Scheme,
     out: &mut dyn Write,
 ) -> Result<String> {
-    let reading = Reading::new(track.dialect.decimal_comma, &track.dialect.missing);
-    let cells: Vec<_> = flags
-        .iter()
-        .map(|flag| {
-            let cell = |row: usize, cells: &Cells<'_>| scheme.code(flag.quality(row, cells, &reading)).to_owned();
-            let new_row = |new: &NewRow| {
-                let filled = new.cells.iter().any(|(column, _)| *column == flag.column);
-                scheme.code(if filled { Quality::Filled } else { Quality::Missing }).to_owned()
-            };
-            (flag.name.clone(), cell, new_row)
-        })
-        .collect();
-    let columns: Vec<NewColumn<'_>> =
-        cells.iter().map(|(name, cell, new_row)| NewColumn { name: name.clone(), cell, new_row }).collect();
     let mut hashing = Hashing { out, hash: Sha256::new() };
-    rewrite_beside(track, changes, &columns, &mut hashing)?;
+    with_columns(track, flags, scheme, |columns| rewrite_beside(track, changes, columns, &mut hashing))?;
     Ok(hex(&hashing.hash.finalize()))
+}
+
+/// Writes the cleaned record with columns of flags as a Parquet file. What the flags mean stands in its metadata, under
+/// the name of the column and of an attribute of CF with a colon between them, as in CDL.
+///
+/// # Errors
+/// As [`write_columns`].
+pub fn write_flagged_columns(
+    track: &Track,
+    (changes, flags): (&Changes, &[FlagColumn]),
+    scheme: &Scheme,
+    out: &mut dyn Write,
+) -> Result<()> {
+    let mut about = Vec::new();
+    for flag in flags {
+        about.push((format!("{}:ancillary_variables", track.columns[flag.column].name), flag.name.clone()));
+        about.extend(scheme.attributes().map(|(attribute, value)| (format!("{}:{attribute}", flag.name), value)));
+    }
+    with_columns(track, flags, scheme, |columns| {
+        let form = FlagForm { columns, whole: scheme.is_whole(), about };
+        write_columns(track, changes, Some(&form), out)
+    })
 }

@@ -30,8 +30,8 @@ impl Quality {
 pub struct Scheme {
     /// Its word on the command line.
     pub id: &'static str,
-    /// What its flags mean, in a line.
-    pub about: &'static str,
+    /// Its flags with what each means in a word.
+    pub flags: &'static [(&'static str, &'static str)],
     /// Its flag for each [`Quality`], in the order of [`Quality::ALL`].
     codes: [&'static str; 7],
 }
@@ -42,18 +42,33 @@ pub static SCHEMES: [Scheme; 3] = [
     // that of the observation: what was missing is missing, whatever fills it.
     Scheme {
         id: "qartod",
-        about: "1 good, 2 not evaluated, 3 suspect, 4 bad, 9 missing",
+        flags: &[("1", "good"), ("2", "not_evaluated"), ("3", "suspect"), ("4", "bad"), ("9", "missing")],
         codes: ["1", "2", "3", "4", "4", "9", "9"],
     },
     // Argo user's manual, reference table 2. A bad value that is taken out keeps the flag 4 beside its fill value.
     Scheme {
         id: "argo",
-        about: "0 not judged, 1 good, 3 probably bad, 4 bad and removed, 8 interpolated, 9 missing",
+        flags: &[
+            ("0", "not_judged"),
+            ("1", "good"),
+            ("3", "probably_bad"),
+            ("4", "bad_and_removed"),
+            ("8", "interpolated"),
+            ("9", "missing"),
+        ],
         codes: ["1", "0", "3", "8", "4", "8", "9"],
     },
     Scheme {
         id: "words",
-        about: "normal, unchecked, suspect, repaired, removed, filled, missing",
+        flags: &[
+            ("normal", "normal"),
+            ("unchecked", "unchecked"),
+            ("suspect", "suspect"),
+            ("repaired", "repaired"),
+            ("removed", "removed"),
+            ("filled", "filled"),
+            ("missing", "missing"),
+        ],
         codes: ["normal", "unchecked", "suspect", "repaired", "removed", "filled", "missing"],
     },
 ];
@@ -63,6 +78,35 @@ impl Scheme {
     #[must_use]
     pub fn of(id: &str) -> Option<&'static Self> {
         SCHEMES.iter().find(|scheme| scheme.id == id)
+    }
+
+    /// What its flags mean, in a line.
+    #[must_use]
+    pub fn about(&self) -> String {
+        let word = |(flag, meaning): &(&str, &str)| {
+            if flag == meaning { (*flag).to_owned() } else { format!("{flag} {}", meaning.replace('_', " ")) }
+        };
+        self.flags.iter().map(word).collect::<Vec<_>>().join(", ")
+    }
+
+    /// True where its flags are whole numbers.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.flags.iter().all(|(flag, _)| flag.parse::<i8>().is_ok())
+    }
+
+    /// What a column of flags says of itself, by the conventions of CF (section 3.5, flags), as names of attributes with
+    /// their values.
+    #[must_use]
+    pub fn attributes(&self) -> [(&'static str, String); 3] {
+        let joined = |part: fn(&(&'static str, &'static str)) -> &'static str, between| {
+            self.flags.iter().map(part).collect::<Vec<_>>().join(between)
+        };
+        [
+            ("standard_name", "status_flag".to_owned()),
+            ("flag_values", joined(|flag| flag.0, ", ")),
+            ("flag_meanings", joined(|flag| flag.1, " ")),
+        ]
     }
 
     /// The flag of a cell.
@@ -106,5 +150,18 @@ mod tests {
             assert_eq!([code("qartod", quality), code("argo", quality), code("words", quality)], [qartod, argo, word]);
         }
         assert!(Scheme::of("QARTOD").is_none());
+    }
+
+    #[test]
+    fn each_flag_that_is_given_says_what_it_means() {
+        for scheme in &SCHEMES {
+            let told: Vec<&str> = scheme.flags.iter().map(|(flag, _)| *flag).collect();
+            assert!(scheme.codes.iter().all(|code| told.contains(code)), "{}", scheme.id);
+            assert!(told.iter().all(|flag| scheme.codes.contains(flag)), "{}", scheme.id);
+            let [_, (_, values), (_, meanings)] = scheme.attributes();
+            assert_eq!(values.split(", ").count(), meanings.split(' ').count(), "{}", scheme.id);
+        }
+        assert_eq!(SCHEMES[0].about(), "1 good, 2 not evaluated, 3 suspect, 4 bad, 9 missing");
+        assert_eq!((SCHEMES[0].is_whole(), SCHEMES[2].is_whole()), (true, false));
     }
 }

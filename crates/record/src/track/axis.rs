@@ -216,6 +216,21 @@ impl TimeAxis {
         }
     }
 
+    /// A time in nanoseconds after 1970, or after the file's own zero.
+    pub(super) fn nanoseconds(&self, seconds: f64) -> Option<i64> {
+        self.ns_at(seconds).and_then(|ns| i64::try_from(ns).ok())
+    }
+
+    /// True where the numbers of the file are moments, whatever clocks show.
+    pub(super) fn is_absolute(&self) -> bool {
+        matches!(self.format, TimeFormat::Epoch { .. } | TimeFormat::Since { .. })
+    }
+
+    /// True where the file counts nanoseconds.
+    pub(super) fn counts_nanoseconds(&self) -> bool {
+        self.count_unit() == Some(1)
+    }
+
     fn ns_at(&self, seconds: f64) -> Option<i128> {
         #[expect(clippy::cast_possible_truncation, reason = "saturates, and nanoseconds suffice")]
         let ns = (seconds * 1e9).round() as i128;

@@ -105,9 +105,9 @@ impl Supply<'static> {
         let hashed = Hashed { file: file.take(extent.most()), bytes: 0, hash: Sha256::new() };
         let Some(packing) = packing else { return Ok((Self::Plain(hashed), length)) };
         let file = Arc::new(Mutex::new(hashed));
-        let mut directory = File::open(path).map_err(unreadable())?;
+        let directory = File::open(path).map_err(unreadable())?;
         let unpackable = |e: Unpackable| Error::input(path, e.what, e.help);
-        let text = packing.unpack(&mut directory, Box::new(Shared(Arc::clone(&file)))).map_err(unpackable)?;
+        let text = packing.unpack(Box::new(directory), Box::new(Shared(Arc::clone(&file)))).map_err(unpackable)?;
         // Decimal numbers pack to a third or a quarter; what is wrong with the guess costs nothing but address space.
         Ok((Self::Packed(Unpacked { packing, text, file }), length.saturating_mul(4)))
     }

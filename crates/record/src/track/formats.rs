@@ -5,6 +5,7 @@
 
 use encoding_rs::WINDOWS_1252;
 
+use super::columnar::with_layout;
 use super::view::{Field, Sheet, View, Want};
 use super::{Aside, Delimiter, LoadOptions, Rules, Zero};
 use crate::error::Result;
@@ -202,6 +203,11 @@ impl Known {
         known.said.insert(0, format.words());
         known.format = Some((format, text));
         known
+    }
+
+    /// What the user told of a file that stores columns.
+    pub(crate) fn of_columns(options: &LoadOptions) -> Self {
+        Self { options: with_layout(options), ..Self::default() }
     }
 
     /// What the user told of a view, completed by what the view has.

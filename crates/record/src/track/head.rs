@@ -120,6 +120,9 @@ impl Head {
     /// [`Error::Input`] for an open quote, a file without rows, and one without numbers; [`Error::Usage`] for a line or
     /// a table that is not there.
     pub(crate) fn of(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
+        if text.is_columnar() {
+            return Self::of_columns(text, options, path);
+        }
         let (layout, decimal_comma) = sniff(text.body(), options);
         let reading = Reading::new(decimal_comma, &options.missing).by(options.rules);
         // Sessions by the first rules that say where the table stands are later than those rules.
@@ -150,6 +153,35 @@ impl Head {
     ) -> Result<Self> {
         let lines = &seen.lines[..table.after];
         let (first, heading) = told_heading(lines, table.first, of, &reading, options)?;
+        Self::under(seen, (number, table), (first, heading), of, reading, (options, path))
+    }
+
+    /// The head of a file that stores columns: the names stand in the first line, and every other line is a row.
+    fn of_columns(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
+        let layout = Layout { delimiter: super::Delimiter::Byte(b','), quote: Some(b'"'), line_end: b'\n', mark: None };
+        let of = Lines { body: text.body(), layout, encoding: text.encoding, skip: 0 };
+        let lines = of.first(SAMPLE + 1, usize::MAX).map_err(|e| no_table(path, e))?;
+        let [names, _, ..] = lines.as_slice() else {
+            return Err(Error::input(path, "columns, and no rows in them", "name a file with rows of numbers"));
+        };
+        let count = Some(names.cells.len());
+        let heading = Heading { names_at: Some(0), names: names.cells.clone(), cells: count, ..Heading::default() };
+        let table = Table { first: 1, after: lines.len(), rows: lines.len() - 1 };
+        let seen = Seen { lines, tables: vec![table], complete: true };
+        let reading = Reading::new(false, &options.missing);
+        let head = Self::under(&seen, (1, table), (1, heading), &of, reading, (options, path))?;
+        Ok(Self { repeats: Vec::new(), ..head })
+    }
+
+    fn under(
+        seen: &Seen,
+        (number, table): (usize, Table),
+        (first, heading): (usize, Heading),
+        of: &Lines<'_>,
+        reading: Reading,
+        (options, path): (&LoadOptions, &Path),
+    ) -> Result<Self> {
+        let lines = &seen.lines[..table.after];
         let rows: Vec<&Line> = lines[first.min(lines.len())..].iter().filter(|l| l.is_data()).take(SAMPLE).collect();
         let [row, ..] = rows.as_slice() else { return Err(no_rows(path, lines)) };
         let usual = usual_width(rows.iter().copied());

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::body::{Body, Numbers, Plan};
 use super::column_roles::{Roles, assign, release};
+use super::columnar;
 use super::feed::{Feed, Unfit};
 use super::formats::{self, Known};
 use super::head::{Head, open_quote};
@@ -48,6 +49,14 @@ pub fn load_while(source: &Source, options: &LoadOptions, wanted: Wanted<'_>) ->
 /// # Errors
 /// As [`load_while`].
 pub fn load_extent(source: &Source, options: &LoadOptions, extent: Extent, wanted: Wanted<'_>) -> Result<Track> {
+    let mut track = loaded(source, options, extent, wanted)?;
+    if track.dialect.packing.is_some_and(Packing::is_columnar) {
+        columnar::settle(&mut track)?;
+    }
+    Ok(track)
+}
+
+fn loaded(source: &Source, options: &LoadOptions, extent: Extent, wanted: Wanted<'_>) -> Result<Track> {
     let extent = extent.settled(source);
     let still = || if wanted.still() { Ok(()) } else { Err(Error::Stopped) };
     if let Some(path) = source.file()
@@ -62,7 +71,9 @@ pub fn load_extent(source: &Source, options: &LoadOptions, extent: Extent, wante
     still()?;
     refuse_binaries(&stored, &path)?;
     let mut text = Text::of(&stored, &path, options.encoding)?;
-    if let Some(format) = formats::viewed(text.body(), options) {
+    if !text.is_columnar()
+        && let Some(format) = formats::viewed(text.body(), options)
+    {
         text = text.viewed(format, Want { table: options.table }, &path)?;
     }
     still()?;
@@ -134,10 +145,16 @@ impl Understood {
     /// From the text, or from so much of it that [`Head::needs_no_more`].
     pub(super) fn of(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
         let view = text.view.as_deref();
-        if view.is_none() {
+        if text.is_columnar() {
+            columnar::refuse_layout(options, path)?;
+        } else if view.is_none() {
             refuse_other_formats(text.body(), path)?;
         }
-        let mut known = view.map_or_else(|| Known::of(text.body(), options), |view| Known::of_view(view, options));
+        let mut known = match view {
+            _ if text.is_columnar() => Known::of_columns(options),
+            Some(view) => Known::of_view(view, options),
+            None => Known::of(text.body(), options),
+        };
         let mut head = Head::of(text, &known.options, path)?;
         known.settle_time(&head.names);
         head.take(&known, view);
@@ -177,7 +194,7 @@ impl Understood {
             oddities: &self.head.oddities,
             truths: self.roles.truths.clone(),
             late: &self.roles.late,
-            footer: self.rules == Rules::Second,
+            footer: self.rules == Rules::Second && !self.packing.is_some_and(Packing::is_columnar),
         };
         let (mut feed, bytes) = rows().map_err(Failure::Unfit)?;
         let mut body = parse(&mut feed, bytes, self.head.data_line, &plan)?;

@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 
 use tempfile::NamedTempFile;
 
-use super::{DASH, unpacked_name};
+use super::{DASH, names_columns, unpacked_name};
 use crate::error::{Error, Result};
 use faults::{Disk, point};
 use identity::{FileId, Protected};
@@ -67,9 +67,22 @@ impl Outputs {
     /// appears with [`Outputs::commit`].
     ///
     /// # Errors
-    /// [`Error::Exists`], [`Error::IsInput`]; [`Error::Usage`] for a path that two outputs share; [`Error::Input`] for
-    /// a target that is no file; [`Error::Io`] where the folder is missing or cannot be written; what `write` gives.
+    /// [`Error::Exists`], [`Error::IsInput`]; [`Error::Usage`] for a path that two outputs share, and for the name of a
+    /// Parquet file; [`Error::Input`] for a target that is no file; [`Error::Io`] where the folder is missing or cannot
+    /// be written; what `write` gives.
     pub fn stage(&mut self, path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+        if names_columns(path) {
+            let what = format!("{}: only the cleaned file can be a Parquet file", path.display());
+            return Err(Error::usage(what, "give it a name that ends in .csv"));
+        }
+        self.stage_columns(path, write)
+    }
+
+    /// The same for what `write` writes as Parquet.
+    ///
+    /// # Errors
+    /// As [`Outputs::stage`], whatever the name.
+    pub fn stage_columns(&mut self, path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
         if self.dash && path == Path::new(DASH) {
             let folder = std::env::temp_dir();
             let file = tempfile::tempfile().map_err(Error::io("write to", &folder))?;

@@ -1,11 +1,12 @@
 //! How a file is packed, known from its first bytes: packed text is read like any other, and an output whose name ends
-//! like that of a packed file is packed.
+//! like that of a packed file is packed. A file that stores a table by columns is one more packing of its text.
 
 use std::fmt;
 use std::io::{self, BufReader, Read, Seek, Write};
 
 mod bzip2;
 mod gzip;
+mod parquet;
 mod xz;
 mod zip;
 mod zstd;
@@ -23,14 +24,16 @@ pub struct Packing {
     /// True when packed files one after the other are one packed file, to which can be appended.
     pub(crate) joins: bool,
     unpack: Unpack,
-    pack: Pack,
+    /// None where the packed file is no text packed, but a table stored by columns.
+    pack: Option<Pack>,
 }
 
 /// All of them.
-pub static PACKINGS: [Packing; 5] = [gzip::PACKING, zstd::PACKING, xz::PACKING, bzip2::PACKING, zip::PACKING];
+pub static PACKINGS: [Packing; 6] =
+    [gzip::PACKING, zstd::PACKING, xz::PACKING, bzip2::PACKING, zip::PACKING, parquet::PACKING];
 
 /// A stream of text from a packed one. What stands in the packed file can be looked up in the first.
-type Unpack = for<'a> fn(&mut dyn Look, Stream<'a>) -> Result<Stream<'a>, Unpackable>;
+type Unpack = for<'a> fn(Box<dyn Look + 'a>, Stream<'a>) -> Result<Stream<'a>, Unpackable>;
 /// What packs all that is written to it, for a file of this name.
 type Pack = for<'a> fn(&'a mut dyn Write, &str) -> io::Result<Box<dyn Packer + 'a>>;
 
@@ -38,8 +41,8 @@ type Pack = for<'a> fn(&'a mut dyn Write, &str) -> io::Result<Box<dyn Packer + '
 pub(crate) type Stream<'a> = Box<dyn Read + Send + 'a>;
 
 /// A file that can be looked into at any place.
-pub(crate) trait Look: Read + Seek {}
-impl<T: Read + Seek> Look for T {}
+pub(crate) trait Look: Read + Seek + Send {}
+impl<T: Read + Seek + Send> Look for T {}
 
 /// A packed stream that is being written.
 pub(crate) trait Packer: Write {
@@ -71,17 +74,29 @@ impl Packing {
     }
 
     /// The text in `packed`, which is the stream of all bytes of `file`.
-    pub(crate) fn unpack<'a>(&self, file: &mut dyn Look, packed: Stream<'a>) -> Result<Stream<'a>, Unpackable> {
+    pub(crate) fn unpack<'a>(&self, file: Box<dyn Look + 'a>, packed: Stream<'a>) -> Result<Stream<'a>, Unpackable> {
         (self.unpack)(file, packed)
     }
 
     /// What packs all that is written to it into `out`, under this name where that is kept.
     pub(crate) fn pack<'a>(&self, out: &'a mut dyn Write, name: &str) -> io::Result<Box<dyn Packer + 'a>> {
-        (self.pack)(out, name)
+        let pack = self.pack.ok_or_else(|| io::Error::other(format!("no text is packed as {}", self.name)))?;
+        pack(out, name)
+    }
+
+    /// True for files that store a table by columns: how its text is laid out is no question.
+    #[must_use]
+    pub fn is_columnar(&self) -> bool {
+        self.pack.is_none()
     }
 
     /// What is wrong with a stream that gives `error`.
     pub(crate) fn broken(&self, error: &io::Error) -> Unpackable {
+        if self.is_columnar() {
+            let help =
+                "copy or fetch the file again; if columns of it are encrypted, write it again without encryption";
+            return Unpackable { what: error.to_string(), help: help.into() };
+        }
         let what = format!("the {} stream is broken: {error}", self.name);
         Unpackable { what, help: "copy or fetch the file again".into() }
     }
@@ -97,8 +112,10 @@ impl Packing {
 #[must_use]
 pub fn unpacked_name(name: &str) -> (&str, Option<&'static Packing>) {
     let cut = |packing: &'static Packing| packing.cut(name).map(|rest| (rest, Some(packing)));
-    PACKINGS.iter().find_map(cut).unwrap_or((name, None))
+    PACKINGS.iter().filter(|packing| !packing.is_columnar()).find_map(cut).unwrap_or((name, None))
 }
+
+pub(crate) use zstd::{packed as zstd_packed, unpacked as zstd_unpacked};
 
 /// Bytes that tell how a file is packed.
 const LOOKED_AT: u64 = 16;

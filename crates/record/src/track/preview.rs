@@ -3,7 +3,9 @@
 use std::io::Read;
 use std::path::Path;
 
+use super::columnar::{refuse_layout, with_layout};
 use super::feed::Supply;
+use super::packing::Packing;
 use super::{Extent, LoadOptions, Source, Track, Wanted, for_each_row, load_while};
 use crate::error::{Error, Result};
 
@@ -38,11 +40,18 @@ impl Preview {
             return Err(Error::input(path, "this is no ordinary file", "name a file with a record"));
         }
         let (supply, _) = Supply::open(path, Extent::All)?;
+        let columnar = supply.packing().is_some_and(Packing::is_columnar);
         let (mut bytes, share) = beginning(supply, about.len(), most).map_err(Error::io("read", path))?;
         if share < 1.0 {
             whole_lines(&mut bytes);
         }
-        Self::of_bytes(&bytes, options, about.len(), share, wanted).map_err(|e| renamed(e, path))
+        let laid_out = if columnar {
+            refuse_layout(options, path)?;
+            &with_layout(options)
+        } else {
+            options
+        };
+        Self::of_bytes(&bytes, laid_out, about.len(), share, wanted).map_err(|e| renamed(e, path))
     }
 
     /// [`Preview::of`] for a record that is in memory.

@@ -112,19 +112,7 @@ pub(super) fn rewrite_as(
     if let Some(view) = &text.view {
         return super::view::rewrite(track, &text, view, changes, &mut pen);
     }
-    let layout = track.dialect.layout(text.body());
-    let mut editor = Editor {
-        track,
-        form,
-        beside: (!columns.is_empty()).then(|| Beside { track, body: text.body(), layout, columns }),
-        layout,
-        encoding: text.encoding,
-        reading: Reading::new(track.dialect.decimal_comma, &[]),
-        cells: &changes.cells,
-        rows: &changes.rows,
-        time_sample: String::new(),
-        line_end: b"\n",
-    };
+    let mut editor = Editor::of(track, &text, (changes, form), columns);
     let written = editor.run(&text, &mut pen)?;
     editor.between(&text.body()[written..], &mut pen)?;
     let left = editor.cells.first().map(|c| c.row).or(editor.rows.first().map(|r| r.after_row));
@@ -185,6 +173,27 @@ struct Editor<'a> {
 }
 
 impl<'a> Editor<'a> {
+    fn of(
+        track: &'a Track,
+        text: &'a Text<'_>,
+        (changes, form): (&'a Changes, Form<'a>),
+        columns: &'a [NewColumn<'a>],
+    ) -> Self {
+        let layout = track.dialect.layout(text.body());
+        Self {
+            track,
+            form,
+            beside: (!columns.is_empty()).then(|| Beside { track, body: text.body(), layout, columns }),
+            layout,
+            encoding: text.encoding,
+            reading: Reading::new(track.dialect.decimal_comma, &[]),
+            cells: &changes.cells,
+            rows: &changes.rows,
+            time_sample: String::new(),
+            line_end: b"\n",
+        }
+    }
+
     /// Writes up to the last change; gives how much of the body has been written.
     fn run(&mut self, text: &'a Text<'_>, pen: &mut Pen<'_>) -> Result<usize> {
         let body = text.body();
@@ -297,6 +306,13 @@ impl<'a> Editor<'a> {
 
     /// A row in the form of `record`.
     fn new_row(&self, record: &Record<'_>, spans: &[Span], new: &NewRow) -> Vec<u8> {
+        let mut edits = self.new_cells(record, spans, new);
+        edits.extend(self.beside.iter().flat_map(|beside| beside.new_row(new)));
+        patched(record.bytes, spans, (self.layout, self.form.fixed_width), &edits)
+    }
+
+    /// The texts of the cells of a row in the form of `record`.
+    fn new_cells(&self, record: &Record<'_>, spans: &[Span], new: &NewRow) -> Vec<(usize, String)> {
         let time = &self.track.time;
         let mut width = spans.len().max(new.cells.last().map_or(0, |(c, _)| c + 1));
         if self.beside.is_some() {
@@ -318,10 +334,36 @@ impl<'a> Editor<'a> {
             let value = new.cells.iter().find(|(c, _)| *c == column).map(|(_, v)| *v);
             self.number(column, "", value).unwrap_or_else(|| self.nothing())
         };
-        let mut edits: Vec<(usize, String)> = (0..width).map(|c| (c, text(c))).collect();
-        edits.extend(self.beside.iter().flat_map(|beside| beside.new_row(new)));
-        patched(record.bytes, spans, (self.layout, self.form.fixed_width), &edits)
+        (0..width).map(|c| (c, text(c))).collect()
     }
+}
+
+/// The texts of the cells of rows that the input does not have, as [`rewrite`] writes them.
+///
+/// # Errors
+/// As [`rewrite`].
+pub(super) fn new_row_cells(track: &Track, rows: &[NewRow]) -> Result<Vec<Vec<String>>> {
+    if rows.is_empty() {
+        return Ok(Vec::new());
+    }
+    let stored = unchanged(track)?;
+    let text = text_of(track, &stored)?;
+    let changes = Changes { cells: Vec::new(), rows: rows.to_vec() };
+    let mut editor = Editor::of(track, &text, (&changes, Form::of(track)), &[]);
+    let mut all = Vec::with_capacity(rows.len());
+    walk(track, &text, |row, record, splitter| {
+        let spans = splitter.cells(record);
+        editor.note_form(row, record, spans);
+        let mine = editor.rows.iter().take_while(|r| r.after_row as usize == row).count();
+        let (now, later) = editor.rows.split_at(mine);
+        editor.rows = later;
+        all.extend(
+            now.iter()
+                .map(|new| editor.new_cells(record, spans, new).into_iter().map(|(_, text)| text).collect::<Vec<_>>()),
+        );
+        Ok(!editor.rows.is_empty())
+    })?;
+    Ok(all)
 }
 
 /// `record` with the text of some cells replaced; quotes stay, and so does the width of cells padded with blanks (of all

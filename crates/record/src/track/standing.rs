@@ -156,7 +156,7 @@ fn rows_after(path: &Path, track: &Track) -> io::Result<usize> {
     }
     file.seek(SeekFrom::Start(track.bytes))?;
     let mut tail: Stream<'_> = match track.dialect.packing {
-        Some(packing) => packing.unpack(&mut io::empty(), Box::new(file)).map_err(|e| io::Error::other(e.what))?,
+        Some(packing) => packing.unpack(Box::new(io::empty()), Box::new(file)).map_err(|e| io::Error::other(e.what))?,
         None => Box::new(file),
     };
     let (mut rows, mut open, mut first) = (0, Vec::new(), before != [b'\n'] && before != [b'\r'] && before != [0]);

@@ -99,7 +99,7 @@ fn understood(
         check.of(lines).map_err(Failure::Unfit)?;
         let text = Text::part(lines, encoding, packing);
         // A table that is made of the records needs all of them.
-        if viewed(text.body(), options).is_some() {
+        if !text.is_columnar() && viewed(text.body(), options).is_some() {
             return Err(UNFIT);
         }
         let understood = Understood::of(&text, options, path).map_err(|_| UNFIT)?;

@@ -37,6 +37,11 @@ impl Style {
         })
     }
 
+    /// So many decimals.
+    pub(crate) fn with_decimals(decimals: usize) -> Self {
+        Self { decimals, ..Self::default() }
+    }
+
     /// `value` as a cell of the column in place of `old`: what stands around the number there stays.
     pub(crate) fn written(&self, value: f64, old: &str, reading: &Reading) -> String {
         let Some(range) = number_in(old, reading) else { return self.number(value, "", reading) };

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::fs::File;
-use std::io::{Cursor, Read};
+use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use encoding_rs::{UTF_16BE, UTF_16LE, WINDOWS_1252};
@@ -15,7 +15,7 @@ use super::unsupported::refuse_binaries;
 use super::view::{View, Want};
 use super::{Encoding, Extent, Format, Source, Wanted};
 use crate::error::{Error, Result};
-use crate::memory::Share;
+use crate::memory::{Full, Share, limit};
 
 /// A small packed file can unpack to a thousand times its size: more than this is no record that was packed by mistake
 /// or by somebody who means harm, but one to be unpacked on purpose.
@@ -150,6 +150,11 @@ impl<'a> Text<'a> {
         Ok(Self { bytes, start, share, encoding, packing, view: None })
     }
 
+    /// True for the text of a file that stores columns.
+    pub(crate) fn is_columnar(&self) -> bool {
+        self.packing.is_some_and(Packing::is_columnar)
+    }
+
     /// The bytes that hold rows: those of the source, or of the table that its format makes of them.
     pub(crate) fn body(&self) -> &[u8] {
         self.view.as_ref().map_or_else(|| self.source(), |view| &view.table)
@@ -210,17 +215,27 @@ fn unpacked<'a>(stored: &'a [u8], path: &Path) -> Result<Opened<'a>> {
     let Some(packing) = Packing::of(stored) else { return Ok((Cow::Borrowed(stored), None, share)) };
     let unpackable = |e: Unpackable| Error::input(path, e.what, e.help);
     let mut bytes = Vec::new();
-    let mut packed = packing.unpack(&mut Cursor::new(stored), Box::new(stored)).map_err(unpackable)?;
+    let mut packed = packing.unpack(Box::new(Cursor::new(stored)), Box::new(stored)).map_err(unpackable)?;
     loop {
         share.add(PIECE).map_err(Error::memory(path))?;
-        let read = (&mut packed).take(PIECE).read_to_end(&mut bytes).map_err(|e| unpackable(packing.broken(&e)))?;
+        let read = (&mut packed).take(PIECE).read_to_end(&mut bytes).map_err(|e| match e.kind() {
+            io::ErrorKind::OutOfMemory => Error::memory(path)(Full { limit: limit() }),
+            _ => unpackable(packing.broken(&e)),
+        })?;
         if bytes.len() as u64 > MOST_UNPACKED {
-            let help = format!("unpack it ({} FILE) if that is what it is", packing.tool);
+            let help = if packing.is_columnar() {
+                "write a file with fewer columns or rows".to_owned()
+            } else {
+                format!("unpack it ({} FILE) if that is what it is", packing.tool)
+            };
             return Err(Error::input(path, "it unpacks to more than 4 GiB", help));
         }
         if read == 0 {
             break;
         }
+    }
+    if packing.is_columnar() {
+        return Ok((Cow::Owned(bytes), Some(packing), share));
     }
     if let Some(inner) = Packing::of(&bytes) {
         let what = format!("it is packed twice: {} in {}", inner.name, packing.name);

@@ -51,18 +51,12 @@ struct Binary {
 }
 
 /// What analysts have besides text.
-const BINARIES: [Binary; 19] = [
+const BINARIES: [Binary; 18] = [
     Binary {
         at: 0,
         begins: b"\xd0\xcf\x11\xe0",
         name: "a spreadsheet of old Excel (xls)",
         help: "export the sheet as CSV: soffice --convert-to csv FILE",
-    },
-    Binary {
-        at: 0,
-        begins: b"PAR1",
-        name: "a Parquet file",
-        help: "write it as CSV: duckdb -c \"copy (from 'FILE') to 'OUT.csv'\"",
     },
     Binary {
         at: 0,

@@ -7,7 +7,7 @@ use ratatui::crossterm::event::{KeyCode, KeyEvent};
 use super::super::super::files::Task;
 use super::super::super::message::{Effect, Output, OutputKind};
 use super::super::super::model::{Dialog, ExportForm, ExportRow, Model, Overlay, Tone};
-use super::super::files::beside;
+use super::super::files::{beside, default_export};
 use super::super::overlay::edit;
 use super::{effect, keep};
 use crate::error::on_one_line;
@@ -17,7 +17,10 @@ use crate::report::ReportForm;
 pub(in super::super) fn dialog(model: &mut Model) -> Vec<Effect> {
     let row = |kind: OutputKind| {
         let session = model.file.clone().filter(|_| kind == OutputKind::Session);
-        let path = session.unwrap_or_else(|| beside(&model.track.source, kind.ending()));
+        let path = session.unwrap_or_else(|| match kind {
+            OutputKind::Cleaned => default_export(&model.track),
+            _ => beside(&model.track.source, kind.ending()),
+        });
         ExportRow { kind, on: kind == OutputKind::Cleaned, path, there: false }
     };
     let form = ExportForm { rows: OutputKind::ALL.into_iter().map(row).collect(), choice: 0, typing: None };

@@ -21,7 +21,7 @@ pub(super) const PACKING: Packing = Packing {
     tool: "bunzip2 -k",
     joins: true,
     unpack: |_, stream| Ok(Box::new(MultiBzDecoder::new(buffered(stream)))),
-    pack: |out, _| Ok(Box::new(BzEncoder::new(out, Compression::best()))),
+    pack: Some(|out, _| Ok(Box::new(BzEncoder::new(out, Compression::best())))),
 };
 
 impl Packer for BzEncoder<&mut dyn Write> {

@@ -16,7 +16,7 @@ pub(super) const PACKING: Packing = Packing {
     joins: true,
     unpack: |_, stream| Ok(Box::new(MultiGzDecoder::new(buffered(stream)))),
     // No time stamp: the same content makes the same file.
-    pack: |out, _| Ok(Box::new(GzBuilder::new().mtime(0).write(out, Compression::default()))),
+    pack: Some(|out, _| Ok(Box::new(GzBuilder::new().mtime(0).write(out, Compression::default())))),
 };
 
 impl Packer for GzEncoder<&mut dyn Write> {

@@ -146,14 +146,14 @@ fn a_text_of_many_pieces_comes_back_and_always_packs_alike() {
     let mut text = String::from("t,x\n");
     (0..120_000).for_each(|i| text += &format!("{i},{}\n", i * 7 % 1013));
     assert!(text.len() > 1 << 20, "more than a frame of zstd");
-    for packing in &PACKINGS {
+    for packing in PACKINGS.iter().filter(|packing| !packing.is_columnar()) {
         let small = packed(packing, &text.as_bytes()[..100_000]);
         assert_eq!(small, packed(packing, &text.as_bytes()[..100_000]), "{packing:?}");
         let out = packed(packing, text.as_bytes());
         assert!(out.len() < text.len() / 2, "{packing:?}: {}", out.len());
         assert_eq!(Packing::of(&out), Some(packing));
         let mut again = Vec::new();
-        packing.unpack(&mut io::Cursor::new(&out), Box::new(&out[..])).unwrap().read_to_end(&mut again).unwrap();
+        packing.unpack(Box::new(io::Cursor::new(&out)), Box::new(&out[..])).unwrap().read_to_end(&mut again).unwrap();
         assert!(again == text.as_bytes(), "{packing:?}");
         assert!(!packed(packing, b"").is_empty(), "{packing:?}: nothing is a file too");
     }

@@ -18,7 +18,7 @@ pub(super) const PACKING: Packing = Packing {
     tool: "unxz -k",
     joins: true,
     unpack: |_, stream| Ok(Box::new(XzReader::new_mem_limit(buffered(stream), true, MOST_MEMORY_KIB))),
-    pack: |out, _| Ok(Box::new(XzWriter::new(out, XzOptions::with_preset(PRESET))?)),
+    pack: Some(|out, _| Ok(Box::new(XzWriter::new(out, XzOptions::with_preset(PRESET))?))),
 };
 
 impl Packer for XzWriter<&mut dyn Write> {

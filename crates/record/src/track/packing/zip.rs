@@ -17,7 +17,7 @@ pub(super) const PACKING: Packing = Packing {
     tool: "unzip",
     joins: false,
     unpack,
-    pack,
+    pack: Some(pack),
 };
 
 /// How many names of an archive are told.
@@ -33,7 +33,7 @@ struct Member {
     crc: u32,
 }
 
-fn unpack<'a>(file: &mut dyn Look, mut stream: Stream<'a>) -> Result<Stream<'a>, Unpackable> {
+fn unpack<'a>(file: Box<dyn Look + 'a>, mut stream: Stream<'a>) -> Result<Stream<'a>, Unpackable> {
     let broken = |e: io::Error| PACKING.broken(&e);
     let member = the_one(file)?;
     io::copy(&mut (&mut stream).take(member.start), &mut io::sink()).map_err(broken)?;
@@ -50,7 +50,7 @@ fn unpack<'a>(file: &mut dyn Look, mut stream: Stream<'a>) -> Result<Stream<'a>,
 }
 
 /// The one file of an archive.
-fn the_one(file: &mut dyn Look) -> Result<Member, Unpackable> {
+fn the_one(file: Box<dyn Look + '_>) -> Result<Member, Unpackable> {
     let broken = |e: zip::result::ZipError| PACKING.broken(&io::Error::other(e));
     let mut archive = ZipArchive::new(file).map_err(broken)?;
     let mut names = Vec::new();

@@ -16,7 +16,7 @@ pub(super) const PACKING: Packing = Packing {
     tool: "zstd -d",
     joins: true,
     unpack: |_, stream| Ok(Box::new(Frames { stream: buffered(stream), decoder: FrameDecoder::new(), within: false })),
-    pack: |out, _| Ok(Box::new(FrameWriter { out, text: Vec::new() })),
+    pack: Some(|out, _| Ok(Box::new(FrameWriter { out, text: Vec::new() }))),
 };
 
 /// The frames of a file, one after the other.
@@ -68,6 +68,20 @@ impl Frames<'_> {
     }
 }
 
+/// The bytes in packed ones, so many at most.
+pub(crate) fn unpacked(packed: &[u8], most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    Frames { stream: buffered(Box::new(packed)), decoder: FrameDecoder::new(), within: false }
+        .take(most)
+        .read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Bytes packed into a frame.
+pub(crate) fn packed(bytes: &[u8]) -> Vec<u8> {
+    compress_to_vec(bytes, CompressionLevel::Fastest)
+}
+
 /// Text of a frame.
 const FRAME: usize = 1 << 20;
 
@@ -79,7 +93,7 @@ struct FrameWriter<'a> {
 
 impl FrameWriter<'_> {
     fn frame(&mut self) -> io::Result<()> {
-        let frame = compress_to_vec(self.text.as_slice(), CompressionLevel::Fastest);
+        let frame = packed(&self.text);
         self.text.clear();
         self.out.write_all(&frame)
     }
