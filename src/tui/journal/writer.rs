@@ -222,6 +222,9 @@ impl Writer {
         if let Some(open) = &self.open {
             let _ = open.file.sync_all();
         }
+        // Whoever opens the journal next can take it when nobody holds the file any more, the other thread included.
+        drop(self.syncer.files);
+        self.syncer.done.iter().for_each(drop);
     }
 }
 

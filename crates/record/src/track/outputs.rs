@@ -269,6 +269,8 @@ fn sync(folder: &Path) -> std::io::Result<()> {
 #[cfg(test)]
 mod tests {
     use std::io::Read as _;
+    use std::process::Stdio;
+    use std::sync::RwLock;
 
     use super::*;
 
@@ -359,6 +361,21 @@ mod tests {
         write_set(Path::new(&dir), "new").unwrap();
     }
 
+    /// A process holds the open files of this one, locks included, until it runs its own program: nobody begins one
+    /// while a test looks at who holds what.
+    static PROCESSES: RwLock<()> = RwLock::new(());
+
+    /// A run that writes its set in `dir` and is killed at the step `at`, if it has so many.
+    fn killed_at(at: usize, dir: &Path) -> std::process::Output {
+        let mut command = std::process::Command::new(std::env::current_exe().unwrap());
+        command.args(["--exact", "track::outputs::tests::killed_run"]);
+        command.env("WILDPOINT_TEST_SET", dir).env("WILDPOINT_TEST_DIES", at.to_string());
+        let begun = PROCESSES.write().unwrap();
+        let run = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        drop(begun);
+        run.wait_with_output().unwrap()
+    }
+
     #[test]
     fn a_set_of_a_killed_run_is_finished_or_taken_back_by_the_next() {
         let (mut finished, mut taken_back) = (0, 0);
@@ -371,12 +388,7 @@ mod tests {
                     if old {
                         write_set(dir, "old").unwrap();
                     }
-                    let run = std::process::Command::new(std::env::current_exe().unwrap())
-                        .args(["--exact", "track::outputs::tests::killed_run"])
-                        .env("WILDPOINT_TEST_SET", dir)
-                        .env("WILDPOINT_TEST_DIES", at.to_string())
-                        .output()
-                        .unwrap();
+                    let run = killed_at(at, dir);
                     // The next run, in either of the folders, then in the other.
                     for folder in [first, if first.is_empty() { "inside" } else { "" }] {
                         manifest::tidy(&dir.join(folder), dir.metadata().ok().as_ref().and_then(manifest::user));
@@ -400,6 +412,7 @@ mod tests {
 
     #[test]
     fn a_target_that_somebody_changed_since_is_left_alone_and_the_set_taken_back() {
+        let _no_process_begins = PROCESSES.read().unwrap();
         let dir = tempfile::tempdir().unwrap();
         let at = |name: &str| dir.path().join(name);
         let owner = dir.path().metadata().ok().as_ref().and_then(manifest::user);
@@ -426,6 +439,7 @@ mod tests {
 
     #[test]
     fn what_a_dead_run_left_is_taken_away_and_what_a_live_one_holds_is_not() {
+        let _no_process_begins = PROCESSES.read().unwrap();
         let dir = tempfile::tempdir().unwrap();
         let owner = dir.path().metadata().ok().as_ref().and_then(manifest::user);
         let mut live = Outputs::new(false, &[]);
