@@ -91,8 +91,7 @@ fn columns_are_corrected_and_the_work_stays() {
     terminal.wait_for("2356 rows, 4 columns");
     // The sample number instead of the time column.
     terminal.keys("\x7f\x1b[C");
-    terminal.wait_for("the sample number");
-    terminal.wait_for("sample number)");
+    terminal.wait_for("time is the sample number");
     terminal.keys("\r");
     terminal.wait_for("open demo.csv");
     terminal.keys("d");

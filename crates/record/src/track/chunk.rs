@@ -9,7 +9,7 @@ use super::order::UNREADABLE;
 use super::quick::{Quick, QuickRow};
 use super::text::decoded;
 use super::timestamp::Count;
-use super::timing::nanoseconds;
+use super::timing::{Timing, nanoseconds};
 use super::tokens::{Layout, OpenQuote, RecordKind, Records, Span, inner, is_empty, split};
 
 /// A chunk of lines, and the buffers that its rows go to.
@@ -114,7 +114,8 @@ impl<'a> Chunk<'a> {
         {
             return false;
         }
-        let mut text = self.plan.timing.as_ref().is_some_and(|t| !self.plan.reading.is_marker(cell(t.column)));
+        let mut times = self.plan.timing.iter().flat_map(Timing::all_columns);
+        let mut text = times.any(|column| !self.plan.reading.is_marker(cell(column)));
         for (column, _) in self.plan.slots.iter().enumerate().filter(|(_, slot)| slot.is_some()) {
             match self.plan.reading.cell(cell(column)) {
                 Cell::Number(_) | Cell::Infinite => return false,

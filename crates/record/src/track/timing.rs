@@ -49,6 +49,11 @@ pub(crate) struct Timing {
 pub(crate) type Moment = Count;
 
 impl Timing {
+    /// Every column that a time is read from.
+    pub(crate) fn all_columns(&self) -> impl Iterator<Item = usize> {
+        self.date_column.into_iter().chain([self.column]).chain(self.columns.iter().copied())
+    }
+
     /// A time in one column, or in two where the date stands apart.
     pub(crate) fn of(column: usize, date_column: Option<usize>, format: TimeFormat) -> Self {
         Self {
