@@ -35,7 +35,8 @@ impl Residuals {
     /// Computes them under this mask: anew where it differs, within reach, from the mask before.
     pub(super) fn update(&mut self, record: &Record<'_>, masked: &[bool], stop: &Stop) -> Result<&[f64], Stopped> {
         let n = record.y.len();
-        (self.once.resize(n, 0.0), self.left.resize(n, 0.0));
+        self.once.resize(n, 0.0);
+        self.left.resize(n, 0.0);
         // Near an end an interpolation reaches twice as far as elsewhere.
         let once = near_changes(&self.masked, masked, 2 * self.half);
         let left = near_changes(&self.masked, masked, 3 * self.half);
