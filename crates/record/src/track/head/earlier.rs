@@ -1,4 +1,4 @@
-//! The head of a file as it was found by the rules of [`Rules::First`], within the first lines: sessions that were saved
+//! The head of a file as it was found by the rules of [`Rules::First`](crate::track::Rules::First), within the first lines: sessions that were saved
 //! then go on meaning what they meant.
 
 use std::path::Path;
