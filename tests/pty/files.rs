@@ -106,6 +106,18 @@ fn columns_are_corrected_and_the_work_stays() {
 }
 
 #[test]
+fn a_file_that_is_not_understood_opens_the_loader_and_leaving_it_says_what_is_open() {
+    let folder = folder();
+    std::fs::write(folder.path("bad.csv"), "hello\nworld\n").unwrap();
+    let mut terminal = Terminal::start(&folder.path(""), "bad.csv", COMPACT, &[]);
+    terminal.wait_for("no column of numbers in the first lines");
+    terminal.keys("\x1b");
+    terminal.wait_for("bad.csv is not opened; this is wildpoint:demo");
+    terminal.keys("q");
+    assert_eq!(terminal.end().0, 0);
+}
+
+#[test]
 fn a_session_saved_under_another_name_is_among_the_recent_files() {
     let folder = folder();
     let state = tempfile::TempDir::new().unwrap();

@@ -125,7 +125,14 @@ fn leave(model: &mut Model, dialog: Dialog) -> Vec<Effect> {
     let mut abandoned = Vec::new();
     let back = match dialog {
         Dialog::Browser(_) | Dialog::Export(_) | Dialog::Unsaved(_) => None,
-        Dialog::Loader(form) => form.back,
+        Dialog::Loader(form) => {
+            // What lies under the dialog is another record.
+            if !form.again && form.back.is_none() {
+                let (name, open) = (form.source.name(), model.track.source.name());
+                model.say(Tone::Warning, format!("{name} is not opened; this is {open}"));
+            }
+            form.back
+        }
         Dialog::Waiting(waiting) => {
             model.say(Tone::Warning, format!("{} is not opened", waiting.name));
             abandoned = effect(Task::Abandon);
