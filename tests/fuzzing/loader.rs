@@ -6,6 +6,7 @@ use std::sync::Arc;
 use wildpoint::track::{CellChange, Changes, Delimiter, Encoding, LoadOptions, Source, for_each_row, load, rewrite};
 
 use super::bytes::Bytes;
+use super::laws;
 
 pub(super) fn body(data: &[u8]) {
     let mut bytes = Bytes(data);
@@ -27,20 +28,8 @@ pub(super) fn body(data: &[u8]) {
         times.reverse();
     }
     assert!(times.windows(2).all(|w| w[0] < w[1]), "times go forward");
-    let mut rows = 0;
-    for_each_row(&track, |row, cells| {
-        assert_eq!(row, rows);
-        rows += 1;
-        (0..cells.len()).for_each(|c| drop(cells.text(c)));
-        Ok(())
-    })
-    .unwrap();
-    assert_eq!(rows, track.rows, "both passes see the same rows");
-    let mut again = Vec::new();
-    rewrite(&track, &Changes::default(), &mut again).unwrap();
-    if track.dialect.packing.is_none() {
-        assert_eq!(again, bytes.0, "nothing changed, nothing differs");
-    }
+    laws::both_passes_agree(&track);
+    laws::unchanged(&track, bytes.0);
     changed(&track, &options);
 }
 
