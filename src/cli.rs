@@ -12,12 +12,14 @@ use crate::session::{DEFAULT_METHOD, Preset, SCHEMES, Scheme, Setup, method_of_i
 use crate::track::{DASH, Delimiter, Encoding, LoadOptions, Pattern, Rules, TimeUnit, Worded};
 
 mod experiments;
+mod parse;
 mod prepare;
-
-pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
-pub use prepare::PrepareArgs;
 mod screen;
 mod tools;
+
+pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
+use parse::{memory_size, pair, size};
+pub use prepare::PrepareArgs;
 pub use screen::{Color, ConfigArgs, Glyphs};
 pub use tools::{CompareArgs, FormatArg, JudgeArgs, StreamArgs, SweepArgs};
 
@@ -476,24 +478,6 @@ impl Shared {
 /// The help of `--channel` where one channel is worked on.
 fn one_channel(channel: clap::Arg) -> clap::Arg {
     channel.help("Channel to work on [default: the first numeric column that is neither time nor truth]")
-}
-
-fn pair(text: &str) -> std::result::Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
-        _ => Err("KEY=VALUE is wanted, k=4.5 say".into()),
-    }
-}
-
-fn memory_size(text: &str) -> std::result::Result<u64, String> {
-    crate::memory::parse(text).ok_or_else(|| "a size is wanted, 500M or 4G say".to_owned())
-}
-
-fn size(text: &str) -> std::result::Result<(u16, u16), String> {
-    let sizes = text.split_once(['x', 'X']).and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-    sizes
-        .filter(|&(w, h)| (1..=1000).contains(&w) && (1..=1000).contains(&h))
-        .ok_or_else(|| "WIDTHxHEIGHT is wanted, 120x40 say".to_owned())
 }
 
 #[cfg(test)]
