@@ -11,6 +11,8 @@ use crate::report::Inspection;
 use crate::session::{Accepted, Appended};
 use crate::track::{Channel, Source, Track, load, printable_json, printable_lines};
 
+mod advise;
+mod candidates;
 mod clean;
 mod compare;
 mod comparison;
@@ -62,6 +64,7 @@ pub fn run(command: Command, out: &mut dyn Write) -> Result<Ending> {
         }
         Command::Sweep(args) => sweep::run(&args, out),
         Command::Compare(args) => compare::run(&args, out),
+        Command::Advise(args) => advise::run(&args, out),
         Command::Stream(args) => {
             crate::stream::run(&args, std::io::stdin().lock(), out, &mut std::io::stderr()).map(|()| Ending::Done)
         }

@@ -11,12 +11,14 @@ use crate::repair;
 use crate::session::{DEFAULT_METHOD, Preset, SCHEMES, Scheme, Setup, method_of_id};
 use crate::track::{DASH, Delimiter, Encoding, LoadOptions, Pattern, Rules, TimeUnit, Worded};
 
+mod advise;
 mod experiments;
 mod parse;
 mod prepare;
 mod screen;
 mod tools;
 
+pub use advise::AdviseArgs;
 pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
 use parse::{memory_size, pair, size};
 pub use prepare::PrepareArgs;
@@ -63,6 +65,9 @@ pub struct Cli {
     #[command(flatten)]
     pub shared: Shared,
 }
+
+/// The word of `--method` for the one that is recommended.
+pub const AUTO: &str = "auto";
 
 /// Everything that is named by a word.
 #[expect(clippy::large_enum_variant, reason = "there is one, and it is taken apart at once")]
@@ -144,6 +149,9 @@ pub enum Command {
     /// Every method on one channel, side by side.
     #[command(long_about = tools::COMPARE, mut_arg("channel", one_channel))]
     Compare(CompareArgs),
+    /// Which method finds most on this record, measured on the record itself.
+    #[command(long_about = advise::ADVISE, mut_arg("channel", one_channel))]
+    Advise(AdviseArgs),
     /// Judge samples from standard input as they arrive.
     #[command(long_about = tools::STREAM, mut_arg("channel", one_channel))]
     Stream(StreamArgs),
@@ -310,7 +318,8 @@ pub struct Shared {
     /// first judged channel, sqrt(mean((clean - reference)^2)) over the samples that have a value in the output.
     #[arg(long, value_name = "COLUMN")]
     pub reference: Option<String>,
-    /// Method (see `wildpoint methods`).
+    /// Method (see `wildpoint methods`); `clean` takes auto, too: for each channel the one that `wildpoint advise`
+    /// recommends.
     #[arg(long, value_name = "ID", default_value = DEFAULT_METHOD)]
     pub method: String,
     /// Values to start from: those that work on real tracks, or those of the source documents.
@@ -439,6 +448,29 @@ impl Load {
 }
 
 impl Shared {
+    /// True when the method is to be chosen for each channel.
+    #[must_use]
+    pub fn is_auto(&self) -> bool {
+        self.method == AUTO
+    }
+
+    /// What is done with channels until their method is chosen: the default method, and the repair that was asked for.
+    ///
+    /// # Errors
+    /// As [`Shared::setup`].
+    pub fn setup_before_choice(&self) -> Result<Setup> {
+        let of_repair = |key: &str| repair::PARAMS.iter().any(|p| p.key == key);
+        let set = self.set.iter().filter(|(key, _)| of_repair(key)).cloned().collect();
+        Self { method: DEFAULT_METHOD.to_owned(), set, ..self.clone() }.setup()
+    }
+
+    /// The settings of `--set` that are not those of the repair.
+    #[must_use]
+    pub fn method_settings(&self) -> Vec<(String, String)> {
+        let of_repair = |key: &str| repair::PARAMS.iter().any(|p| p.key == key);
+        self.set.iter().filter(|(key, _)| !of_repair(key)).cloned().collect()
+    }
+
     /// Method, repair and their settings.
     ///
     /// # Errors
@@ -448,6 +480,13 @@ impl Shared {
             PresetArg::Default => Preset::Default,
             PresetArg::Paper => Preset::Paper,
         };
+        if self.is_auto() {
+            let what = format!("--method {AUTO}: this needs the name of a method");
+            return Err(Error::usage(
+                what,
+                "`clean` chooses one; elsewhere take what `wildpoint advise FILE` recommends",
+            ));
+        }
         let mut setup = Setup::new(method_of_id(&self.method)?, preset);
         setup.rate.clone_from(&self.rate);
         let named = [

@@ -6,6 +6,7 @@
 use rayon::prelude::*;
 
 use crate::error::{Error, Result, nearest};
+pub use crate::math::random::Random;
 
 pub mod demo;
 pub mod gan;
@@ -16,13 +17,11 @@ pub mod inject;
 pub mod jiang;
 pub mod jin;
 pub mod qin;
-mod random;
 pub mod record;
 pub mod reproduction;
 pub mod trial;
 
 pub use inject::{Injection, Plan};
-pub use random::Random;
 pub use record::{Record, Signal, Wild};
 pub use reproduction::{Cell, Figures, Finding, Reproduction, Runs, Table};
 

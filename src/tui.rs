@@ -36,6 +36,7 @@ pub mod chart_data;
 mod clipboard;
 pub mod config;
 pub mod consensus;
+pub mod detectability;
 mod effects;
 pub mod files;
 mod find;

@@ -29,6 +29,7 @@ const LAYERS: &[&[&str]] = &[
     &["ballot"],
     &["sweep"],
     &["score"],
+    &["detectability"],
     &["api"],
     &["track"],
     &["session"],

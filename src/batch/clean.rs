@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use super::advise;
 use super::set;
 use super::suggest;
 use super::targets::{Target, file_name, targets};
@@ -25,10 +26,10 @@ pub(super) fn run(
     out: &mut dyn Write,
 ) -> Result<Ending> {
     set_threads(shared.threads)?;
-    let setup = shared.setup()?;
+    let setup = if shared.is_auto() { shared.setup_before_choice()? } else { shared.setup()? };
     outputs.check_standard_output(save_session)?;
     if suggested {
-        suggest::check(shared)?;
+        suggest::check(shared, &setup)?;
     }
     let all: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
     let work = |file: &Path, target: &Target| one(file, (shared, suggested), &setup, (target, &all));
@@ -59,7 +60,10 @@ fn one(
         session.plans.retain(|p| any(&track, &shared.load.channel, p) || !any(&track, &shared.rate, p));
     }
     session.plans.retain(|p| !any(&track, &shared.reference, p));
-    let notes = if suggested { suggest::suggest(&mut session, &track)? } else { Vec::new() };
+    let mut notes = if shared.is_auto() { advise::choose(&mut session, &track, shared)? } else { Vec::new() };
+    if suggested {
+        notes = suggest::suggest(&mut session, &track)?;
+    }
     let analysed = Analysed::of(&session, &track, &Stop::never())?;
     let mut summary = Summary::of(&track, &session, &analysed);
     summary.channels.iter_mut().zip(&notes).for_each(|(channel, note)| channel.warnings.insert(0, note.clone()));

@@ -4,16 +4,16 @@ use std::io::Write;
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::candidates::{Asked, Candidates, candidates};
 use super::comparison::{Row, Skipped, Told};
 use super::consensus::written;
 use super::{Ending, one_channel, print, print_json, set, set_threads};
 use crate::cli::CompareArgs;
 use crate::error::{Error, Result};
-use crate::method::shared::MAX_GAP;
-use crate::method::{METHODS, Method, Verdict};
+use crate::method::Verdict;
 use crate::review::Decisions;
 use crate::score::Score;
-use crate::session::{Ballot, Preset, Setup, candidates, detect, method_of_id, settle};
+use crate::session::{Ballot, Setup, detect, settle};
 use crate::stop::Stop;
 use crate::track::{Samples, Track};
 
@@ -65,48 +65,16 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
 
 /// The methods that take part with their settings, and those that cannot.
 fn setups(args: &CompareArgs) -> Result<(Vec<Setup>, Vec<Skipped>)> {
-    let named: Vec<&'static dyn Method> = args.method.iter().map(|id| Ok(method_of_id(id)?)).collect::<Result<_>>()?;
-    let all = if named.is_empty() { METHODS } else { named.as_slice() };
-    let (mut setups, left_out) = candidates(all, Preset::from(args.preset), args.rate.as_deref());
+    let asked = Asked {
+        methods: &args.method,
+        preset: args.preset,
+        rate: args.rate.as_deref(),
+        max_gap: args.max_gap.as_deref(),
+        set: &args.set,
+    };
+    let Candidates { setups, left_out } = candidates(&asked)?;
     let skipped = left_out.into_iter().map(|method| Skipped { method, why: "needs a rate channel (--rate)" }).collect();
-    if setups.is_empty() {
-        return Err(Error::usage("no method takes part", "name a rate channel with --rate, or another --method"));
-    }
-    if let Some(gap) = &args.max_gap {
-        assign(&mut setups, MAX_GAP.key, gap)?;
-    }
-    for (key, value) in &args.set {
-        assign(&mut setups, key, value)?;
-    }
     Ok((setups, skipped))
-}
-
-/// Sets `ID.KEY` of one method, or `KEY` of all that have it.
-fn assign(setups: &mut [Setup], key: &str, value: &str) -> Result<()> {
-    if let Some((id, key)) = key.split_once('.') {
-        let method = method_of_id(id)?.about().id;
-        return match setups.iter_mut().find(|s| s.method.about().id == method) {
-            Some(setup) => Ok(setup.settings.set_text(method, key, value)?),
-            None => {
-                Err(Error::usage(format!("{id}: does not take part"), "name it with --method, or leave out its --set"))
-            }
-        };
-    }
-    let mut known = false;
-    for setup in setups.iter_mut().filter(|s| s.settings.get(key).is_some()) {
-        known = true;
-        setup.settings.set_text(setup.method.about().id, key, value).map_err(|e| match e.into() {
-            Error::Usage { what, help } => Error::usage(
-                format!("{}: {what}", setup.method.about().id),
-                format!("{help}\n  or set it for some methods only: --set ID.{key}=VALUE"),
-            ),
-            other => other,
-        })?;
-    }
-    if known {
-        return Ok(());
-    }
-    Err(Error::usage(format!("{key}: no method has such a parameter"), "see `wildpoint methods`; --set ID.KEY=VALUE"))
 }
 
 /// What one method says, and how long it took on one core.
@@ -128,23 +96,4 @@ fn judge(track: &Track, index: usize, samples: &Samples, setup: &Setup) -> Resul
     let series = samples.series(channel, &track.time);
     let score = track.truth_for(&channel.name).map(|truth| Score::of(&outcome, &series, truth));
     Ok((Row::of(setup.method.about().id, &outcome.counts, Some(ms), score), verdicts))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_setting_goes_to_one_method_or_to_all_that_have_it() {
-        let ids = ["hampel", "two-sided"];
-        let mut setups: Vec<Setup> =
-            ids.iter().map(|id| Setup::new(method_of_id(id).unwrap(), Preset::Default)).collect();
-        assign(&mut setups, "hampel.k", "7").unwrap();
-        assign(&mut setups, "max_gap", "off").unwrap();
-        assert_eq!((setups[0].settings.real("k"), setups[1].settings.real("k")), (7.0, 4.0));
-        assert!(setups.iter().all(|s| s.settings.whole_or_off("max_gap").is_none()));
-        for (key, value) in [("gesd.alpha", "0.1"), ("nonsense", "1"), ("hampel.nonsense", "1"), ("k", "x")] {
-            assert!(assign(&mut setups, key, value).is_err(), "{key}={value}");
-        }
-    }
 }

@@ -1,9 +1,9 @@
 //! `clean --suggest`: thresholds from the record itself (section 8a of `docs/methods.md`).
 
-use crate::cli::Shared;
+use crate::cli::{AUTO, Shared};
 use crate::error::{Error, Result};
-use crate::session::Session;
 use crate::session::sweep::{Threshold, multiplier, sweep, usual_values};
+use crate::session::{Session, Setup};
 use crate::stop::Stop;
 use crate::track::{Samples, Track};
 
@@ -39,8 +39,12 @@ pub(super) fn suggest(session: &mut Session, track: &Track) -> Result<Vec<String
 ///
 /// # Errors
 /// [`Error::Usage`].
-pub(super) fn check(shared: &Shared) -> Result<()> {
-    let key = multiplier(&shared.setup()?)?.key;
+pub(super) fn check(shared: &Shared, setup: &Setup) -> Result<()> {
+    if shared.is_auto() {
+        let what = format!("--suggest and --method {AUTO} both choose");
+        return Err(Error::usage(what, "leave one of them out: the advice holds at the calibrated threshold"));
+    }
+    let key = multiplier(setup)?.key;
     if shared.set.iter().any(|(k, _)| k == key) {
         return Err(Error::usage(
             format!("--suggest finds {key} itself"),

@@ -51,6 +51,7 @@ pub enum Action {
     AdoptPinned,
     Consensus,
     NextAgreed,
+    Detectability,
     NextChannel,
     Channels,
     Methods,

@@ -8,6 +8,7 @@ use crossbeam_channel::{Receiver, Sender, unbounded};
 
 use super::advice::{self, Advise};
 use super::consensus::{self, Poll, Polling};
+use super::detectability::{self, Studying};
 use super::files::{Desk, Task};
 use super::jobs::{self, Errand, Judge};
 use super::journal::Journal;
@@ -40,6 +41,7 @@ pub(super) struct Outside {
     /// Whether the advisor has been asked what a step changes, and has not answered.
     advising: bool,
     poller: Worker<Poll>,
+    study_worker: Worker<detectability::Job>,
     sender: Sender<Message>,
     pub(super) messages: Receiver<Message>,
     pub(super) journal: Journal,
@@ -66,6 +68,7 @@ impl Outside {
         let (worker, advisor) = (jobs::judge(sender.clone()), advice::advise(sender.clone()));
         let journal = Journal::start(folder.clone(), model, sender.clone());
         let poller = consensus::poll(sender.clone());
+        let study_worker = detectability::study(sender.clone());
         let desk = Desk::new(sender.clone(), folder.as_deref());
         let known = Known::default();
         sessions(model).into_iter().for_each(|file| known.read(file));
@@ -75,6 +78,7 @@ impl Outside {
             advisor,
             advising: false,
             poller,
+            study_worker,
             sender,
             messages,
             journal,
@@ -150,6 +154,8 @@ impl Outside {
                     // What the user waits for goes before advice.
                     self.advisor.cancel();
                     self.advising = false;
+                    self.study_worker.cancel();
+                    model.studying = None;
                     model.awaited = Some(self.worker.submit(Judge::new(model, plan).with_steps(model)));
                 }
                 Effect::Advise(plan) => {
@@ -164,6 +170,13 @@ impl Outside {
                     model.polling = Some(Polling { generation, ..polling });
                 }
                 Effect::CancelPoll => self.poller.cancel(),
+                Effect::Study(plan, subject) => {
+                    let job = detectability::Job::new(model, plan, subject);
+                    let studying = job.started(0);
+                    let generation = self.study_worker.submit(job);
+                    model.studying = Some(Studying { generation, ..studying });
+                }
+                Effect::CancelStudy => self.study_worker.cancel(),
                 Effect::Cancel => {
                     self.advisor.cancel();
                     self.advising = false;

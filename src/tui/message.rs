@@ -6,6 +6,7 @@ use ratatui::crossterm::event::{KeyEvent, MouseEvent};
 
 use super::advice::{Advice, Steps};
 use super::consensus::Consensus;
+use super::detectability::{Finding, Subject};
 use super::files::{News, Task};
 use crate::error::{Error, Result};
 use crate::plot::Drawn;
@@ -54,6 +55,17 @@ pub enum Message {
         plan: usize,
         /// Their votes.
         consensus: Box<Consensus>,
+    },
+    /// More is known of how small a wild point is found on a channel.
+    Studied {
+        /// The job it answers.
+        generation: u64,
+        /// Index of the plan.
+        plan: usize,
+        /// What came out so far.
+        finding: Finding,
+        /// Rounds that are done, of all.
+        rounds: [usize; 2],
     },
     /// What one step of the active knob of a channel changes is known.
     Stepped {
@@ -208,7 +220,7 @@ pub enum Fate {
 
 /// Something that the outside has to do.
 #[expect(clippy::large_enum_variant, reason = "there are few of them, and each is moved a few times")]
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Effect {
     /// Judge the channel of this plan under the session as it is now.
     Analyse(usize),
@@ -219,6 +231,10 @@ pub enum Effect {
     Poll(usize),
     /// Abandon asking them.
     CancelPoll,
+    /// Measure on the channel of this plan how small a wild point is found.
+    Study(usize, Subject),
+    /// Abandon measuring it.
+    CancelStudy,
     /// Abandon the running judgement.
     Cancel,
     /// Write the session.

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::action::{Action, Panel};
 use super::advice::{Advice, Steps};
 use super::consensus::Polling;
+use super::detectability::Studying;
 use super::files::Request;
 use super::keys::Keys;
 use super::plot::{Axis, Glyphs, View};
@@ -91,6 +92,8 @@ pub struct Model {
     pub second: Second,
     /// How far all methods have been asked.
     pub polling: Option<Polling>,
+    /// The measurement of detectability that is under way.
+    pub studying: Option<Studying>,
     /// True when x is the number of the sample, false when it is its time.
     pub by_number: bool,
     /// Whether the next quit is meant.
@@ -182,6 +185,7 @@ impl Model {
             lower: Lower::default(),
             second: Second::default(),
             polling: None,
+            studying: None,
             by_number: false,
             interrupted: false,
             ticket: 0,

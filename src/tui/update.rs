@@ -4,6 +4,7 @@
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::action::{Action, Panel};
+use super::detectability::Subject;
 use super::keys::Meaning;
 use super::message::{Effect, Message};
 use super::model::{Knob, Model, Overlay, Picker, PickerKind, Prompt, PromptKind, Tone};
@@ -19,6 +20,7 @@ mod compare;
 mod consensus;
 pub(super) mod decide;
 pub(super) mod describe;
+mod detectability;
 mod dialog;
 mod files;
 mod history;
@@ -50,8 +52,12 @@ pub(super) use tune::value_text;
 
 /// Takes a message in; gives what the outside has to do.
 pub fn update(model: &mut Model, message: Message) -> Vec<Effect> {
-    let effects = take(model, message);
+    let mut effects = take(model, message);
     queue::keep_in_sight(model);
+    let analyses = effects.iter().any(|effect| matches!(effect, Effect::Analyse(_)));
+    if !analyses {
+        effects.extend(detectability::follow(model));
+    }
     effects
 }
 
@@ -107,6 +113,9 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
             consensus::polled(model, generation, plan, consensus);
             Vec::new()
         }
+        Message::Studied { generation, plan, finding, rounds } => {
+            detectability::studied(model, generation, plan, finding, rounds)
+        }
         Message::Written { what, path, result } => files::written(model, &what, &path, result),
         Message::Files(news) => dialog::news(model, news),
         Message::Record(standing) => {
@@ -135,7 +144,7 @@ fn no_action(model: &mut Model, key: KeyEvent, prefix: Option<char>) {
 type Part = fn(&mut Model, Action) -> Option<Vec<Effect>>;
 
 /// The parts that carry actions out. Each action is one part's; the others leave it.
-const PARTS: [Part; 12] = [
+const PARTS: [Part; 13] = [
     review::act,
     decide::act,
     tune::act,
@@ -144,6 +153,7 @@ const PARTS: [Part; 12] = [
     chart_actions::act,
     compare::act,
     consensus::act,
+    detectability::act,
     channels::act,
     checks::act,
     files::act,
@@ -328,6 +338,10 @@ fn back(model: &mut Model) -> Vec<Effect> {
     } else if model.awaited.take().is_some() {
         model.say(Tone::Warning, "computation stopped; any change starts it again");
         return vec![Effect::Cancel];
+    } else if model.studying.as_ref().is_some_and(|s| matches!(s.subject, Subject::Tuning(_))) {
+        model.studying = None;
+        model.say(Tone::Warning, "the search for settings is stopped; nothing is taken");
+        return vec![Effect::CancelStudy];
     } else if model.polling.take().is_some() {
         model.say(Tone::Warning, "no method is asked any more; C twice asks them again");
         return vec![Effect::CancelPoll];

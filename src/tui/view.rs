@@ -16,6 +16,7 @@ use crate::track::without_signed_zero;
 
 mod card;
 mod compare;
+mod detectability;
 mod files;
 mod footer;
 mod help;

@@ -50,6 +50,15 @@ pub struct Detection {
     taught: Taught,
 }
 
+/// What a [`Calibration`] found at a sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoiseAt {
+    /// The residual at which noise ends, in channel units; infinite where nothing is known.
+    pub limit: f64,
+    /// How far the sample lies outside of all that its neighbours let expect, in channel units.
+    pub objection: f64,
+}
+
 /// Why the method did not see a sample.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Objected {
@@ -226,6 +235,15 @@ impl Detection {
     #[must_use]
     pub fn holds_for(&self, setup: &Setup, decisions: &Decisions) -> bool {
         self.setup.same_detection(setup) && self.taught == taught(&setup.preparation, Some(decisions))
+    }
+
+    /// What the calibration found at the sample at `position`; none where there is no calibration, or where the method
+    /// does not see the sample.
+    #[must_use]
+    pub fn noise_at(&self, position: usize) -> Option<NoiseAt> {
+        let calibration = self.calibration.as_ref()?;
+        let at = self.sight.seen(position)?;
+        Some(NoiseAt { limit: *calibration.limits.get(at)?, objection: *calibration.objections.get(at)? })
     }
 
     /// The check that objects to the sample at `position`, with its evidence; none where none does.

@@ -44,6 +44,7 @@ use residual::{Residuals, outside};
 use resolution::resolution;
 pub use stretches::{local_interval, stretches};
 use threshold::{threshold, weight};
+pub(crate) use words::amount;
 
 /// What is known of a channel before a method judges it.
 #[derive(Debug, Clone, PartialEq)]

@@ -23,6 +23,7 @@
 //! | the right threshold | [`mod@sweep`] |
 //! | what several methods say | [`ballot`] |
 //! | how good a result is, where the truth is known | [`score`] |
+//! | how small a wild point a method finds on this record, and which method to take | [`detectability`] |
 //! | a method of your own | implement [`Method`] |
 //!
 //! Results implement `serde::Serialize`. Work is shared among the threads of the current rayon pool; the crate makes
@@ -35,6 +36,7 @@ mod api;
 pub mod ballot;
 pub mod calibration;
 pub mod check;
+pub mod detectability;
 pub mod error;
 mod interval;
 pub mod math;

@@ -17,6 +17,7 @@ pub mod movement;
 pub mod order;
 pub mod pieces;
 pub mod polyfit;
+pub mod random;
 pub mod sliding;
 pub mod smoothing;
 pub mod sorted_four;

@@ -99,6 +99,14 @@ impl<'a> Series<'a> {
         Some(Series { rows: Some(Cow::Owned(rows)), t: Cow::Owned(t), y: Cow::Owned(y), interval: self.interval })
     }
 
+    /// The same samples, owned.
+    #[must_use]
+    pub fn into_owned(self) -> Series<'static> {
+        let rows = self.rows.map(|rows| Cow::Owned(rows.into_owned()));
+        let (t, y) = (Cow::Owned(self.t.into_owned()), Cow::Owned(self.y.into_owned()));
+        Series { rows, t, y, interval: self.interval }
+    }
+
     /// The samples of two slices that are finite throughout, whose nominal interval is known.
     #[must_use]
     #[inline]

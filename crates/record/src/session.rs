@@ -11,6 +11,7 @@ mod changed;
 mod cleaned;
 mod command_line;
 mod decisions;
+pub mod detectability;
 mod digest;
 mod document;
 mod edit;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::super::advice::{Advice, Steps};
 use super::super::chart_data::Pictures;
 use super::super::consensus::Consensus;
+use super::super::detectability::{MeasuredSetting, Studied};
 use super::super::plot::{Axis, Flags, Layers, View};
 use super::Group;
 use crate::param::Settings;
@@ -62,6 +63,12 @@ pub struct ChannelState {
     pub pinned: Option<Box<Pinned>>,
     /// What all methods say, when they were asked.
     pub consensus: Option<Arc<Consensus>>,
+    /// How much each method finds of known wild points, as far as that was measured.
+    pub studied: Option<Arc<Studied>>,
+    /// The same of the settings that were in force then.
+    pub measured: Option<Arc<MeasuredSetting>>,
+    /// Why no known wild points can be tried on this channel.
+    pub unmeasurable: Option<String>,
     /// Counts the results that were shown.
     pub results: u64,
     /// What was reduced for the last frame.
@@ -130,6 +137,9 @@ impl ChannelState {
             after: false,
             pinned: None,
             consensus: None,
+            studied: None,
+            measured: None,
+            unmeasurable: None,
             results: 0,
             pictures: Pictures::default(),
             cursor: 0,

@@ -12,6 +12,8 @@ pub enum LowerKind {
     Steps,
     /// How many methods flag each sample.
     Consensus,
+    /// Which share of wild points of known size is found.
+    Detectability,
 }
 
 /// Which channel is shown beside the one on the screen, where there is room for two.
@@ -45,7 +47,7 @@ impl Default for Lower {
 }
 
 impl LowerKind {
-    /// Those that follow each other; the consensus is asked for by a key of its own.
+    /// Those that follow each other; the others are asked for by keys of their own.
     pub const ALL: [Self; 3] = [Self::Residual, Self::Histogram, Self::Steps];
 
     /// Its name on the screen.
@@ -56,6 +58,7 @@ impl LowerKind {
             Self::Histogram => "histogram",
             Self::Steps => "steps of time",
             Self::Consensus => "all methods",
+            Self::Detectability => "detectability",
         }
     }
 

@@ -139,6 +139,7 @@ fn next_lower(model: &mut Model) {
         LowerKind::Histogram => "histogram of the residuals of the whole record",
         LowerKind::Steps => "steps of time from sample to sample",
         LowerKind::Consensus => "how many methods flag each sample",
+        LowerKind::Detectability => "share of wild points of known size that is found",
     };
     model.say(Tone::Done, format!("{words} · {} next picture", model.key(Action::NextLower)));
 }
@@ -148,7 +149,7 @@ fn log_scale(model: &mut Model) {
     let (on, of) = match lower.kind {
         LowerKind::Residual => (&mut lower.log_residual, "the residual"),
         LowerKind::Histogram => (&mut lower.log_counts, "the counts"),
-        LowerKind::Steps | LowerKind::Consensus => {
+        LowerKind::Steps | LowerKind::Consensus | LowerKind::Detectability => {
             let name = lower.kind.name();
             model.say(Tone::Warning, format!("{name}: there is only one scale"));
             return;

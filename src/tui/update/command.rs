@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use super::super::message::{Effect, OutputKind};
 use super::super::model::{Model, Tone};
 use super::files::default_report;
-use super::{Action, act, chart_actions, checks, command_line, dialog, files, jump, record, review, show, tune};
+use super::{
+    Action, act, chart_actions, checks, command_line, detectability, dialog, files, jump, record, review, show, tune,
+};
 use crate::check::CHECKS;
 use crate::error::nearest;
 use crate::method::METHODS;
@@ -48,6 +50,9 @@ pub static COMMANDS: &[Command] = &[
     }),
     command("loader", "", "correct how the record is loaded: columns, units, track ids, delimiter", |m, _| {
         Ok(dialog::correct(m))
+    }),
+    command("tune", "", "search settings of the method that find more on this record, 20 s at most", |m, _| {
+        Ok(detectability::tune(m))
     }),
     command("reload", "", "take in rows that were added to the record; every decision stays", |m, _| {
         Ok(record::take_in(m))

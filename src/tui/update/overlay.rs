@@ -6,7 +6,7 @@ use tui_input::{Input, InputRequest};
 use super::super::files::Task;
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
-use super::{chart_actions, dialog, files, journal, jump, note, palette, recover, set_up, show, tune};
+use super::{chart_actions, detectability, dialog, files, journal, jump, note, palette, recover, set_up, show, tune};
 use crate::error::on_one_line;
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
@@ -30,16 +30,17 @@ pub struct Entry {
 pub(super) fn entries(model: &Model, kind: PickerKind) -> Vec<Entry> {
     let setup = &model.plan().setup;
     match kind {
-        PickerKind::Method => METHODS
-            .iter()
-            .map(|m| m.about())
-            .map(|a| Entry {
+        PickerKind::Method => {
+            let listed = METHODS.iter().map(|m| m.about()).map(|a| Entry {
                 id: a.id.into(),
                 help: a.name.into(),
                 group: a.family,
                 current: a.id == setup.method.about().id,
-            })
-            .collect(),
+            });
+            let help = "the method that finds most on this record".to_owned();
+            let auto = Entry { id: detectability::AUTO.to_owned(), help, group: "", current: false };
+            std::iter::once(auto).chain(listed).collect()
+        }
         PickerKind::Repair => {
             let chosen = crate::repair::chosen(&setup.repair).id;
             REPAIRS
@@ -189,6 +190,7 @@ fn pick(model: &mut Model, mut picker: Picker, key: KeyEvent) -> Vec<Effect> {
 
 fn chosen(model: &mut Model, kind: PickerKind, id: String) -> Vec<Effect> {
     match kind {
+        PickerKind::Method if id == detectability::AUTO => detectability::take_recommended(model),
         PickerKind::Method => crate::method::find(&id).map(|m| tune::use_method(model, m)).unwrap_or_default(),
         PickerKind::Repair => tune::set_repair(model, &id).unwrap_or_default(),
         PickerKind::Channel => {

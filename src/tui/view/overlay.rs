@@ -12,7 +12,7 @@ use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind
 use super::super::plot::Glyphs;
 use super::super::update::{narrowed, note, value_text};
 use super::files::end_of;
-use super::{clear, fit};
+use super::{clear, detectability, fit};
 use crate::track::printable;
 
 /// A row that can be chosen: where it is on the screen, and its index.
@@ -137,6 +137,11 @@ fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) -> Vec<
         .render(Rect { height: inside.height.min(1), ..inside }, buffer);
     let body = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1), ..inside };
     let mut lines = Vec::new();
+    let methods = picker.kind == PickerKind::Method;
+    if methods && let Some(about) = detectability::about_list(model) {
+        let head = if model.state().studied.is_some() { detectability::CELLS } else { "" };
+        lines.push((Line::styled(format!("{:23}{head:22}{about}", ""), theme.dim), None));
+    }
     let (mut group, mut choice_row) = ("", 0);
     for (i, entry) in found.iter().enumerate() {
         if entry.group != group {
@@ -151,7 +156,10 @@ fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) -> Vec<
         let text = format!("{}{mark} {:20}", if chosen { '>' } else { ' ' }, fit(&printable(&entry.id), 20));
         let style = if chosen { theme.focus } else { theme.text };
         let help = Span::styled(format!(" {}", entry.help), theme.dim);
-        lines.push((Line::from(vec![Span::styled(text, style), help]), Some(i)));
+        let cells = if methods { detectability::cells(model, &entry.id) } else { None };
+        let cells = cells.map(|cells| Span::styled(format!(" {cells} "), theme.text));
+        let spans = [Some(Span::styled(text, style)), cells, Some(help)];
+        lines.push((Line::from(spans.into_iter().flatten().collect::<Vec<_>>()), Some(i)));
     }
     if found.is_empty() {
         lines.push((Line::styled("nothing fits", theme.dim), None));

@@ -10,7 +10,7 @@ use super::super::model::LowerKind;
 use super::super::plot::{HistogramPlot, Pyramid, ResidualPlot, StepPlot, TracePlot, VotesPlot};
 use super::super::words::plural;
 use super::plots::Plots;
-use super::{NOT_JUDGED, compare, heading_named, short, thousands};
+use super::{NOT_JUDGED, compare, detectability, heading_named, short, thousands};
 use crate::plot::{Drawn, Histogram, Tally};
 use crate::session::Ballot;
 
@@ -23,6 +23,7 @@ impl Plots<'_> {
             LowerKind::Histogram => self.histogram(body, buffer),
             LowerKind::Steps => self.steps(body, buffer),
             LowerKind::Consensus => self.consensus(body, buffer),
+            LowerKind::Detectability => detectability::draw(self.model, body, buffer),
         };
         let head = Rect { height: area.height.min(1), ..area };
         heading_named(self.model, Panel::Residual, self.model.lower.kind.name(), &words, head, buffer);

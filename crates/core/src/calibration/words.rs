@@ -36,7 +36,7 @@ impl Calibration {
 }
 
 /// Two digits of a value, with its unit.
-fn amount(value: f64, unit: &str) -> String {
+pub(crate) fn amount(value: f64, unit: &str) -> String {
     let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
     if unit.is_empty() { rounded.to_string() } else { format!("{rounded} {unit}") }
 }

@@ -1,0 +1,230 @@
+//! Which method to take on a record.
+
+use serde::ser::{Serialize, Serializer};
+
+use super::curve::{Curve, Point, sizes};
+use super::event::Kind;
+use super::ground::Ground;
+use super::round::{Found, Tally};
+use super::{Alone, Study, Unsuitable};
+use crate::setup::Setup;
+
+/// What weighs as much as a recall that is worse by 0.1: one false flag in so many samples.
+const FALSE: f64 = 100.0;
+
+/// A method with a larger share of false flags is not recommended while there is another.
+const MOST_FALSE: f64 = 0.01;
+
+/// Methods whose merits differ by less are equally good.
+const EQUAL: f64 = 0.01;
+
+/// Single points weigh as much as all other kinds together: most wild points are isolated (section 1 of \[001\]).
+const OF_SINGLE: f64 = 0.5;
+
+/// What is known of methods on a record.
+#[derive(Debug, Clone, serde::Serialize)]
+pub struct Advice {
+    /// Samples of the record.
+    pub samples: usize,
+    /// Samples on which the methods were tried: fewer than those of a long record.
+    pub tried: usize,
+    /// The median of the residuals at which noise ends, in channel units; none where the record cannot be asked.
+    pub limit: Option<f64>,
+    /// Rounds that are done, of all.
+    pub rounds: [usize; 2],
+    /// A row for each setup, in the order in which they were given.
+    pub methods: Vec<Measured>,
+    /// The best of them; none before the first round.
+    pub recommended: Option<usize>,
+    /// The second best.
+    pub runner_up: Option<usize>,
+    /// Why the record cannot be asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unsuitable: Option<Unsuitable>,
+}
+
+/// What is known of a method.
+#[derive(Debug, Clone, serde::Serialize)]
+pub struct Measured {
+    /// The method with its settings.
+    #[serde(serialize_with = "settings")]
+    pub setup: Setup,
+    /// What it finds, kind by kind.
+    pub kinds: Vec<Curve>,
+    /// What it says of the record as it is.
+    pub untouched: Untouched,
+    /// Root mean square of its repairs minus the values before, in channel units; none where it repaired nothing.
+    pub repair_error: Option<f64>,
+    /// Wild samples that it removed.
+    pub removed: usize,
+    /// The share that it finds, from 0 to 1: the mean over sizes; single points weigh as much as all other kinds together.
+    pub recall: f64,
+    /// The recall less a tenth for each false flag in a hundred samples.
+    pub merit: f64,
+    /// Milliseconds for the record as it is, with the calibration known.
+    pub milliseconds: f64,
+}
+
+/// What a method says of the record as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
+pub struct Untouched {
+    /// Outliers.
+    pub flagged: usize,
+    /// Those that fewer than half of the methods flag: they are taken for false.
+    pub alone: usize,
+    /// Suspects.
+    pub suspects: usize,
+    /// Samples that it cannot judge.
+    pub unchecked: usize,
+}
+
+fn settings<S: Serializer>(setup: &Setup, serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(serde::Serialize)]
+    struct Method<'a> {
+        method: &'static str,
+        settings: &'a crate::param::Settings,
+    }
+    Method { method: setup.method.about().id, settings: &setup.settings }.serialize(serializer)
+}
+
+impl Advice {
+    /// What came out of `study` so far.
+    pub(super) fn of(study: &Study) -> Self {
+        let methods = match &study.ground {
+            Ok(ground) => measured(ground, &study.setups, &study.tallies, &study.untouched),
+            Err(_) => Vec::new(),
+        };
+        Self::among(study, methods)
+    }
+
+    /// The same about other methods that were measured on the copies of `study`.
+    pub(super) fn among(study: &Study, methods: Vec<Measured>) -> Self {
+        let rounds = [study.rounds.done, study.rounds.all];
+        let (tried, limit) = match &study.ground {
+            Ok(ground) => (ground.y.len(), Some(ground.typical_limit())),
+            Err(_) => (0, None),
+        };
+        let order = if rounds[0] > 0 { ranked(&methods, tried) } else { Vec::new() };
+        Self {
+            samples: study.samples,
+            tried,
+            limit,
+            rounds,
+            methods,
+            recommended: order.first().copied(),
+            runner_up: order.get(1).copied(),
+            unsuitable: study.unsuitable(),
+        }
+    }
+
+    /// True when no round is left to do.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        self.rounds[0] >= self.rounds[1]
+    }
+
+    /// The row of the method that is recommended.
+    #[must_use]
+    pub fn best(&self) -> Option<&Measured> {
+        self.methods.get(self.recommended?)
+    }
+}
+
+impl Measured {
+    /// What it finds of wild points of this kind.
+    #[must_use]
+    pub fn of_kind(&self, kind: Kind) -> Option<&Curve> {
+        self.kinds.iter().find(|curve| curve.kind == kind)
+    }
+}
+
+/// What is known of the methods of `setups`, from what they found and what they say of the record as it is.
+pub(super) fn measured(ground: &Ground, setups: &[Setup], tallies: &[Tally], said: &[Alone]) -> Vec<Measured> {
+    let (kinds, limit, tried) = (ground.kinds(), ground.typical_limit(), ground.y.len());
+    let alone = alone(&said.iter().map(|said| said.flagged.as_slice()).collect::<Vec<_>>(), tried);
+    let of = |(index, setup): (usize, &Setup)| {
+        let (tally, said) = (&tallies[index], &said[index]);
+        let untouched = Untouched {
+            flagged: said.flagged.len(),
+            alone: alone[index],
+            suspects: said.suspects,
+            unchecked: said.unchecked,
+        };
+        let kinds = curves(&kinds, &tally.found, limit);
+        let recall = recall(&kinds);
+        Measured {
+            setup: setup.clone(),
+            kinds,
+            untouched,
+            repair_error: tally.repairs.error(),
+            removed: tally.repairs.removed,
+            recall,
+            merit: recall - 0.1 * FALSE * share(untouched.alone, tried),
+            milliseconds: said.milliseconds,
+        }
+    };
+    setups.iter().enumerate().map(of).collect()
+}
+
+fn curves(kinds: &[Kind], found: &[Found], limit: f64) -> Vec<Curve> {
+    let mut found = found.iter().copied();
+    let of_kind = |&kind: &Kind| {
+        let point = |limits: Option<f64>| {
+            let Found { events, flagged, seen } = found.next().unwrap_or_default();
+            Point { limits, events, found: flagged, seen }
+        };
+        Curve::new(kind, sizes(kind).map(point).collect(), limit)
+    };
+    kinds.iter().map(of_kind).collect()
+}
+
+/// For each list of flagged positions how many of them fewer than half of the lists have.
+fn alone(flagged: &[&[u32]], samples: usize) -> Vec<usize> {
+    let mut votes = vec![0_usize; samples];
+    flagged.iter().flat_map(|list| list.iter()).for_each(|&at| votes[at as usize] += 1);
+    let few = |at: &&u32| 2 * votes[**at as usize] < flagged.len();
+    flagged.iter().map(|list| list.iter().filter(few).count()).collect()
+}
+
+#[expect(clippy::cast_precision_loss, reason = "counts of samples are far below 2^53")]
+fn share(count: usize, samples: usize) -> f64 {
+    count as f64 / samples.max(1) as f64
+}
+
+/// The share of all that was put in: single points weigh as much as all other kinds together.
+fn recall(curves: &[Curve]) -> f64 {
+    let recall = |kind: &Curve| kind.recall.unwrap_or(0.0);
+    let (single, others): (Vec<&Curve>, Vec<&Curve>) = curves.iter().partition(|c| c.kind == Kind::Single);
+    #[expect(clippy::cast_precision_loss, reason = "a few kinds")]
+    let mean = |of: &[&Curve]| of.iter().map(|c| recall(c)).sum::<f64>() / of.len().max(1) as f64;
+    OF_SINGLE * mean(&single) + (1.0 - OF_SINGLE) * mean(&others)
+}
+
+/// The rows from the best to the worst. Of equally good ones the first is that with the fewest false flags, then the
+/// quicker to find in the list.
+fn ranked(methods: &[Measured], samples: usize) -> Vec<usize> {
+    let falsely = |m: &Measured| share(m.untouched.alone, samples);
+    let mut order: Vec<usize> = (0..methods.len()).collect();
+    let worse = |m: &Measured| falsely(m) > MOST_FALSE;
+    order.sort_by(|&a, &b| {
+        let (a, b) = (&methods[a], &methods[b]);
+        worse(a).cmp(&worse(b)).then(b.merit.total_cmp(&a.merit))
+    });
+    let Some(&best) = order.first() else { return order };
+    let equal =
+        |i: &usize| worse(&methods[*i]) == worse(&methods[best]) && methods[*i].merit > methods[best].merit - EQUAL;
+    let count = order.iter().take_while(|i| equal(i)).count();
+    order[..count].sort_by_key(|&i| (methods[i].untouched.alone, i));
+    order
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_half_of_the_methods_flag_is_not_false() {
+        assert_eq!(alone(&[&[1, 5], &[5], &[5, 7], &[]], 10), [1, 0, 1, 0]);
+        assert_eq!(alone(&[&[3]], 10), [0], "one method alone has nobody to disagree with");
+    }
+}

@@ -1,0 +1,255 @@
+//! `advise`: which method finds most on a record; `clean --method auto`, which takes it.
+
+use std::fmt::Write as _;
+use std::io::{IsTerminal, Write};
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+
+use super::candidates::{Asked, Candidates, candidates};
+use super::table::{columns, row};
+use super::{Ending, one_channel, print, print_json, set_threads};
+use crate::cli::{AUTO, AdviseArgs, Shared};
+use crate::error::{Error, Result};
+use crate::session::detectability::{Advice, Curve, Kind, Measured, SEED, Study, advise, tune};
+use crate::session::{Preset, Session, Setup};
+use crate::stop::Stop;
+use crate::track::{Samples, Track, printable};
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Told<'a> {
+    file: String,
+    channel: &'a str,
+    unit: &'a str,
+    seed: u64,
+    #[serde(flatten)]
+    advice: &'a Advice,
+    left_out: &'a [&'static str],
+    reasons: Vec<String>,
+}
+
+pub(super) fn run(args: &AdviseArgs, out: &mut dyn Write) -> Result<Ending> {
+    set_threads(args.threads)?;
+    let named: Vec<String> = args.tune.iter().chain(&args.method).cloned().collect();
+    let asked = Asked {
+        methods: &named,
+        preset: args.preset,
+        rate: args.rate.as_deref(),
+        max_gap: args.max_gap.as_deref(),
+        set: &args.set,
+    };
+    let Candidates { setups, left_out } = candidates(&asked)?;
+    let (track, index, note) = one_channel(&args.file, &args.load, args.rate.as_deref())?;
+    let channel = &track.channels[index];
+    let samples = Samples::of(channel, &track.time);
+    let preparation = args.prepare.of(&track, channel, args.preset)?;
+    let setups: Vec<Setup> = setups.into_iter().map(|setup| setup.prepared(&preparation)).collect();
+    if args.tune.is_some() {
+        return tuned(args, &track, index, &samples, &setups, out);
+    }
+    let progress = Progress { shown: !args.json && std::io::stderr().is_terminal() };
+    let advice = advise(&track, channel, &samples, setups, args.seed, &Stop::never(), |study| progress.show(study));
+    progress.clear();
+    let advice = advice?;
+    if args.json {
+        let file = args.file.display().to_string();
+        let reasons = advice.reasons(&channel.unit);
+        let (name, unit) = (channel.name.as_str(), channel.unit.as_str());
+        let told = Told { file, channel: name, unit, seed: args.seed, advice: &advice, left_out: &left_out, reasons };
+        return print_json(out, &told);
+    }
+    if let Some(why) = advice.unsuitable {
+        return Err(Error::input(&args.file, format!("{}: {why}", channel.name), why.way_out()));
+    }
+    let title = format!("{}: {}{note}\n\n", printable(&channel.name), what(&advice, args.seed));
+    let mut text = title + &table(&advice.methods, &channel.unit) + "\n";
+    for id in left_out {
+        let _ = writeln!(text, "{id}: needs a rate channel (--rate)");
+    }
+    for line in advice.reasons(&channel.unit) {
+        let _ = writeln!(text, "{line}");
+    }
+    if let Some(best) = advice.best() {
+        let _ = writeln!(text, "to take it: {}", options(&best.setup, args.preset.into()));
+    }
+    print(out, &text)
+}
+
+/// What was done, in words.
+fn what(advice: &Advice, seed: u64) -> String {
+    let part = if advice.tried < advice.samples {
+        format!(", of which {} in 16 pieces were tried", advice.tried)
+    } else {
+        String::new()
+    };
+    let copies = if advice.rounds[0] == 1 { "1 copy".to_owned() } else { format!("{} copies", advice.rounds[0]) };
+    let events: usize =
+        advice.methods.first().map_or(0, |m| m.kinds.iter().flat_map(|k| &k.points).map(|p| p.events).sum());
+    format!("{} samples{part}; {events} wild points in {copies} (seed {seed})", advice.samples)
+}
+
+/// A row for each method.
+fn table(methods: &[Measured], unit: &str) -> String {
+    let kinds: Vec<Kind> = methods.first().map_or(Vec::new(), |m| m.kinds.iter().map(|c| c.kind).collect());
+    let mut header = row(["95 % found from"]);
+    header.extend(kinds.iter().map(|kind| kind.word().replace("run of ", "x")));
+    header.extend(row(["found %", "flags", "alone", "repair", "ms"]));
+    let mut rows = vec![header];
+    for measured in methods {
+        let mut cells = vec![measured.setup.method.about().id.to_owned()];
+        cells.extend(measured.kinds.iter().map(size));
+        cells.push(format!("{:.1}", 100.0 * measured.recall));
+        cells.extend([measured.untouched.flagged, measured.untouched.alone].map(|n| n.to_string()));
+        cells.push(measured.repair_error.map_or_else(|| "-".to_owned(), figure));
+        cells.push(format!("{:.0}", measured.milliseconds));
+        rows.push(cells);
+    }
+    let unit = if unit.is_empty() { "channel units".to_owned() } else { printable(unit) };
+    let legend = format!(
+        "sizes and repair errors in {unit}; x2, x5, x10: runs of so many; -: none of the sizes; alone: flags of fewer \
+         than half of the methods\n"
+    );
+    columns(&rows) + &legend
+}
+
+/// From which size on wild points of a kind are found; of a kind without sizes, the share.
+fn size(curve: &Curve) -> String {
+    if !curve.kind.has_sizes() {
+        return curve.recall.map_or_else(|| "-".to_owned(), |recall| format!("{:.0} %", 100.0 * recall));
+    }
+    curve.smallest.map_or_else(|| "-".to_owned(), figure)
+}
+
+/// Two digits of a number.
+fn figure(value: f64) -> String {
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    rounded.to_string()
+}
+
+/// The options of `clean` that mean a setup.
+fn options(setup: &Setup, preset: Preset) -> String {
+    let own = preset.settings(setup.method);
+    let mut text = format!("--method {}", setup.method.about().id);
+    if preset == Preset::Paper {
+        text += " --preset paper";
+    }
+    for (param, value) in setup.settings.iter().filter(|(param, value)| own.get(param.key) != Some(*value)) {
+        let _ = write!(text, " --set {}={}", param.key, value);
+    }
+    text
+}
+
+/// What a search gained, for programs.
+#[derive(Serialize)]
+struct ToldTuned<'a> {
+    file: String,
+    channel: &'a str,
+    unit: &'a str,
+    seed: u64,
+    #[serde(flatten)]
+    tuned: &'a crate::session::detectability::Tuned,
+}
+
+/// `advise --tune`.
+fn tuned(
+    args: &AdviseArgs,
+    track: &Track,
+    index: usize,
+    samples: &Samples,
+    setups: &[Setup],
+    out: &mut dyn Write,
+) -> Result<Ending> {
+    let channel = &track.channels[index];
+    let setup = setups.first().cloned().unwrap_or_else(Setup::standard);
+    let end = Instant::now() + Duration::from_secs_f64(args.seconds);
+    let is_over = || Instant::now() >= end;
+    let allowed = (args.flags, &is_over as &dyn Fn() -> bool);
+    let tuned = match tune(track, channel, samples, &setup, args.seed, allowed, &Stop::never())? {
+        Ok(tuned) => tuned,
+        Err(why) => return Err(Error::input(&args.file, format!("{}: {why}", channel.name), why.way_out())),
+    };
+    if args.json {
+        let (file, name, unit) = (args.file.display().to_string(), channel.name.as_str(), channel.unit.as_str());
+        return print_json(out, &ToldTuned { file, channel: name, unit, seed: args.seed, tuned: &tuned });
+    }
+    let id = setup.method.about().id;
+    let end = if tuned.cut_short { format!(", until {} s were over", args.seconds) } else { String::new() };
+    let mut text = format!("{}: {id}, {} settings tried{end}\n\n", printable(&channel.name), tuned.tried);
+    text += &table(&[tuned.before.clone(), tuned.after.clone()], &channel.unit);
+    text.push('\n');
+    let changed = tuned.after.setup.settings != tuned.before.setup.settings;
+    if changed {
+        let _ = writeln!(text, "second row: {}", options(&tuned.after.setup, args.preset.into()));
+    } else {
+        let _ = writeln!(text, "no other settings find more: {id} stays as it is");
+    }
+    print(out, &text)
+}
+
+/// How far a study is, on the terminal.
+struct Progress {
+    shown: bool,
+}
+
+impl Progress {
+    fn show(&self, study: &Study) {
+        let rounds = study.rounds();
+        if self.shown && rounds.all > 0 {
+            let _ = write!(std::io::stderr(), "\r{} of {} copies", rounds.done, rounds.all);
+        }
+    }
+
+    fn clear(&self) {
+        if self.shown {
+            let _ = write!(std::io::stderr(), "\r\x1b[K");
+        }
+    }
+}
+
+/// Gives each plan of `session` the method that is recommended for its channel, with its settings; the repair stays.
+/// Returns what was chosen and why, a line for each plan. A channel that cannot be asked keeps its method.
+///
+/// # Errors
+/// [`Error::Usage`] for a key that no method has; what [`advise`] gives.
+pub(super) fn choose(session: &mut Session, track: &Track, shared: &Shared) -> Result<Vec<String>> {
+    let asked = Asked {
+        methods: &[],
+        preset: shared.preset,
+        rate: shared.rate.as_deref(),
+        max_gap: shared.max_gap.as_deref(),
+        set: &shared.method_settings(),
+    };
+    let Candidates { setups, .. } = candidates(&asked)?;
+    let mut lines = Vec::with_capacity(session.plans.len());
+    for plan in &mut session.plans {
+        let Some(channel) = track.channel(&plan.channel) else { continue };
+        let samples = Samples::of(channel, &track.time);
+        let prepared = setups.iter().map(|setup| setup.clone().prepared(&plan.setup.preparation)).collect();
+        let advice = advise(track, channel, &samples, prepared, SEED, &Stop::never(), |_| ())?;
+        let reasons = advice.reasons(&channel.unit).join("; ");
+        lines.push(match advice.best() {
+            Some(best) => {
+                let repair = plan.setup.repair.clone();
+                plan.setup = Setup { repair, ..best.setup.clone() };
+                format!("method {AUTO}: {reasons}")
+            }
+            None => format!("method {AUTO}: {reasons}; {} stays", plan.setup.method.about().id),
+        });
+    }
+    Ok(lines)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::method_of_id;
+
+    #[test]
+    fn options_name_what_differs_from_the_preset() {
+        let mut setup = Setup::new(method_of_id("hampel").unwrap(), Preset::Default);
+        assert_eq!(options(&setup, Preset::Default), "--method hampel");
+        setup.set_text("window", "31").unwrap();
+        assert_eq!(options(&setup, Preset::Default), "--method hampel --set window=31");
+    }
+}

@@ -1,0 +1,71 @@
+//! The command line of `advise`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{Load, PrepareArgs, PresetArg, pair};
+use crate::session::detectability::SEED;
+
+/// The help of `advise`.
+pub(super) const ADVISE: &str = "\
+     Which method finds most on this record, measured on the record itself.\n\n\
+     Copies of the channel get wild points of known size in calm places: single ones, runs of 2, 5 and 10, and, where \
+     the record has such, held values and dropouts; from 1 to 100 times the residual at which its noise ends. Every \
+     method judges every copy. The table shows from which size on 95 % are found, kind by kind; how much of all is \
+     found; how many samples of the untouched record are flagged, and how many of those fewer than half of the methods \
+     flag; and how far repaired values are from those before. Of a channel with more than 65,536 samples 16 pieces are \
+     taken.\n\n\
+     The points that are put in are not the record's own wild points: the advice says what would be found, not what is \
+     there. Without --channel the first channel is taken, and named.";
+
+/// What `advise` compares.
+#[derive(Debug, Clone, Args)]
+pub struct AdviseArgs {
+    /// The record.
+    pub file: PathBuf,
+    /// How to load it [default channel: the first].
+    #[command(flatten)]
+    pub load: Load,
+    /// Channel that measures the rate of the judged one.
+    #[arg(long, value_name = "COLUMN")]
+    pub rate: Option<String>,
+    /// Only this method; repeatable [default: all].
+    #[arg(long, value_name = "ID")]
+    pub method: Vec<String>,
+    /// Values to start from: those that work on real tracks, or those of the source documents.
+    #[arg(long, value_enum, default_value_t = PresetArg::Default)]
+    pub preset: PresetArg,
+    /// A parameter of one method, or (without ID.) of all methods that have it; repeatable.
+    #[arg(long, value_name = "[ID.]KEY=VALUE", value_parser = pair)]
+    pub set: Vec<(String, String)>,
+    /// Cut the record where more than this many samples are lost in a row.
+    #[arg(long, value_name = "N|off")]
+    pub max_gap: Option<String>,
+    /// What is done with the channel before any of the methods sees it.
+    #[command(flatten)]
+    pub prepare: PrepareArgs,
+    /// Seed of the random numbers.
+    #[arg(long, value_name = "N", default_value_t = SEED)]
+    pub seed: u64,
+    /// Search settings of this method with which it finds more, its threshold and noise scale aside.
+    #[arg(long, value_name = "METHOD", conflicts_with = "method")]
+    pub tune: Option<String>,
+    /// Try no further settings after so many seconds.
+    #[arg(long, value_name = "N", default_value_t = 20.0, requires = "tune", value_parser = seconds)]
+    pub seconds: f64,
+    /// Samples of the untouched record that tuned settings may flag [default: as many as the settings before].
+    #[arg(long, value_name = "N", requires = "tune")]
+    pub flags: Option<usize>,
+    /// Threads to use; all cores by default.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok().filter(|s: &f64| s.is_finite() && *s > 0.0);
+    seconds.ok_or_else(|| "a positive number of seconds is wanted".to_owned())
+}
