@@ -9,7 +9,8 @@ use crate::error::{Error, Result};
 use crate::math::pieces::{self, PIECE};
 use crate::memory::Share;
 use crate::method::noise::{self, Scales};
-use crate::method::{self, Damaged, Gated, Judged, Rate, Segment, Together, Verdict, judge_segments, segments};
+use crate::method::shared::DOUBT;
+use crate::method::{self, Damaged, Gated, Judged, Rate, Record, Segment, Together, Verdict, judge_segments, segments};
 use crate::repair::{self, Damage, Gap};
 use crate::review::{Decision, Decisions};
 use crate::series::Series;
@@ -217,10 +218,15 @@ impl Detection {
         stop: &Stop,
     ) -> std::result::Result<Self, Stopped> {
         let segments = sight.segments(said.segments, measured.len());
+        let objections = said.scales.first().and_then(|scales| scales.objections.clone());
         let scales = sight.scales(said.scales, segments.len());
-        let judged = sight.spread(said.judged, &measured.y, gate_of(setup), stop)?;
+        let judged = sight.spread(said.judged, &measured.y, (gate_of(setup), objections.is_some()), stop)?;
         let found = Self::new(setup.clone(), segments, scales, judged);
-        let judged = found.judged.with_unseen(sight.unseen());
+        let record = objections.map(|seen| Record {
+            objections: sight.objections(&seen, measured.len()),
+            doubt: setup.settings.real(DOUBT.key),
+        });
+        let judged = found.judged.with_record(record).with_unseen(sight.unseen());
         Ok(Self { judged, sight, taught, ..found })
     }
 

@@ -43,7 +43,7 @@ mod verdict;
 mod window;
 pub mod wright;
 
-pub use gated::Gated;
+pub use gated::{Gated, Record};
 pub use judged::{Damaged, Directions, Judged, Part};
 pub use segment::{Rate, Segment, zero_scale, zero_scale_of_many};
 pub use verdict::{Direction, Restart, TIE, Verdict, Way, exceeds, reaches};

@@ -3,10 +3,11 @@
 //! back among the measured samples.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::check::{Applied, Objection, Subject};
 use crate::math::circle::Circle;
-use crate::method::noise::Scales;
+use crate::method::noise::{self, Scales};
 use crate::method::{Directions, Judged, Part, Restart, Verdict};
 use crate::preparation::Preparation;
 use crate::review::{Decision, Decisions, Ruling};
@@ -177,11 +178,17 @@ impl Sight {
     }
 
     /// What the method said of the seen samples, with an entry for each of the `y` that were measured. A multiplier that
-    /// only gates is `k`.
+    /// only gates is `k`; `by_record` is true where the calibration had a say.
     ///
     /// # Errors
     /// [`Stopped`] as soon as nobody waits for the result any more.
-    pub(super) fn spread(&self, said: Judged, y: &[f64], k: Option<f64>, stop: &Stop) -> Result<Judged, Stopped> {
+    pub(super) fn spread(
+        &self,
+        said: Judged,
+        y: &[f64],
+        (k, by_record): (Option<f64>, bool),
+        stop: &Stop,
+    ) -> Result<Judged, Stopped> {
         let mut said = match &self.kept {
             None => said,
             Some(kept) => spread(said, kept, y.len()),
@@ -189,11 +196,22 @@ impl Sight {
         let Some(circle) = &self.circle else { return Ok(said) };
         circle.back(&mut said.expected, y);
         circle.back(&mut said.own, y);
-        if let Some(k) = k.filter(|_| said.scale.len() == y.len()) {
+        if by_record {
+            // The distances on the measured values differ from those on the unwrapped ones in their last bits.
+            said.scale.clear();
+        } else if let Some(k) = k.filter(|_| said.scale.len() == y.len()) {
             // The multiplier is turned on the measured values: both ways give the same to the last bit.
             said.gate(y, k, stop)?;
         }
         Ok(said)
+    }
+
+    /// What the calibration has against the `n` measured samples, from what it has against the seen ones.
+    pub(super) fn objections(&self, seen: &Arc<[noise::Objection]>, n: usize) -> Arc<[noise::Objection]> {
+        match &self.kept {
+            None => Arc::clone(seen),
+            Some(kept) => over(seen, kept, n, noise::Objection::default()).into(),
+        }
     }
 
     /// The verdicts of the samples that the method does not see.
@@ -279,16 +297,18 @@ fn objections(
     Ok(found)
 }
 
+/// Values of the samples at `kept`, with `nothing` for the others of all `n`; none where there are none.
+fn over<T: Copy>(values: &[T], kept: &[u32], n: usize, nothing: T) -> Vec<T> {
+    if values.is_empty() {
+        return Vec::new();
+    }
+    let mut all = vec![nothing; n];
+    kept.iter().zip(values).for_each(|(at, value)| all[*at as usize] = *value);
+    all
+}
+
 /// A judgement of the samples at `kept` as one of all `n` samples: nothing is said of the others.
 fn spread(said: Judged, kept: &[u32], n: usize) -> Judged {
-    fn over<T: Copy>(values: &[T], kept: &[u32], n: usize, nothing: T) -> Vec<T> {
-        if values.is_empty() {
-            return Vec::new();
-        }
-        let mut all = vec![nothing; n];
-        kept.iter().zip(values).for_each(|(at, value)| all[*at as usize] = *value);
-        all
-    }
     let nan = |values: &[f64]| over(values, kept, n, f64::NAN);
     let mut all = Judged {
         verdict: over(&said.verdict, kept, n, Verdict::Unchecked),

@@ -200,8 +200,8 @@ fn recall(curves: &[Curve]) -> f64 {
     OF_SINGLE * mean(&single) + (1.0 - OF_SINGLE) * mean(&others)
 }
 
-/// The rows from the best to the worst. Of equally good ones the first is that with the fewest false flags, then the
-/// quicker to find in the list.
+/// The rows from the best to the worst. Of equally good ones the first is that with the fewest false flags, then that
+/// with the best repairs.
 fn ranked(methods: &[Measured], samples: usize) -> Vec<usize> {
     let falsely = |m: &Measured| share(m.untouched.alone, samples);
     let mut order: Vec<usize> = (0..methods.len()).collect();
@@ -214,7 +214,11 @@ fn ranked(methods: &[Measured], samples: usize) -> Vec<usize> {
     let equal =
         |i: &usize| worse(&methods[*i]) == worse(&methods[best]) && methods[*i].merit > methods[best].merit - EQUAL;
     let count = order.iter().take_while(|i| equal(i)).count();
-    order[..count].sort_by_key(|&i| (methods[i].untouched.alone, i));
+    let error = |i: usize| methods[i].repair_error.unwrap_or(f64::INFINITY);
+    order[..count].sort_by(|&a, &b| {
+        let alone = |i: usize| methods[i].untouched.alone;
+        alone(a).cmp(&alone(b)).then(error(a).total_cmp(&error(b)))
+    });
     order
 }
 

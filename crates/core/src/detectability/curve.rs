@@ -57,13 +57,46 @@ impl Curve {
 /// The size in limits from which on [`OF_ALL`] are found: between two sizes on the line between their shares, over the
 /// logarithm of the size.
 fn smallest(points: &[Point]) -> Option<f64> {
-    let known: Vec<(f64, f64)> = points.iter().filter_map(|p| Some((p.limits?, p.recall()?))).collect();
-    let above = known.iter().rev().take_while(|(_, recall)| *recall >= OF_ALL).count();
-    let first = known.len().checked_sub(above).filter(|_| above > 0)?;
-    let (size, recall) = known[first];
-    let Some((below, missed)) = first.checked_sub(1).map(|i| known[i]) else { return Some(size) };
-    let way = (OF_ALL - missed) / (recall - missed);
-    Some(below * (size / below).powf(way))
+    let shares = rising(points);
+    let first = shares.iter().position(|share| share.recall >= OF_ALL)?;
+    let Share { limits, recall } = shares[first];
+    let Some(below) = first.checked_sub(1).map(|i| shares[i]) else { return Some(limits) };
+    let way = (OF_ALL - below.recall) / (recall - below.recall);
+    Some(below.limits * (limits / below.limits).powf(way))
+}
+
+/// The share found of the wild points of one size.
+#[derive(Debug, Clone, Copy)]
+struct Share {
+    limits: f64,
+    recall: f64,
+}
+
+/// The shares that rise with the size and are nearest to those of `points`, weighted by their numbers: where a larger
+/// size was found less often, which is chance, neighbours get the mean of their shares (pool adjacent violators).
+fn rising(points: &[Point]) -> Vec<Share> {
+    struct Pool {
+        sizes: Vec<f64>,
+        found: usize,
+        events: usize,
+    }
+    let mut pools: Vec<Pool> = Vec::new();
+    for (limits, point) in points.iter().filter_map(|p| Some((p.limits?, p))).filter(|(_, p)| p.events > 0) {
+        let mut pool = Pool { sizes: vec![limits], found: point.found, events: point.events };
+        // a / b > c / d as a d > c b, in whole numbers.
+        while let Some(before) = pools.pop_if(|before| before.found * pool.events > pool.found * before.events) {
+            pool.sizes.splice(0..0, before.sizes);
+            pool.found += before.found;
+            pool.events += before.events;
+        }
+        pools.push(pool);
+    }
+    #[expect(clippy::cast_precision_loss, reason = "small counts")]
+    let shares = |pool: Pool| {
+        let recall = pool.found as f64 / pool.events as f64;
+        pool.sizes.into_iter().map(move |limits| Share { limits, recall })
+    };
+    pools.into_iter().flat_map(shares).collect()
 }
 
 /// The points of a kind before anything was put in.
@@ -85,9 +118,12 @@ mod tests {
     fn the_smallest_size_is_that_from_which_on_nearly_all_are_found() {
         // Between 1.6 limits (17 of 20) and 2.5 (all): a share of (0.95 - 0.85) / 0.15 of the way.
         let expected = 2.0 * 1.6 * (2.5_f64 / 1.6).powf(2.0 / 3.0);
-        assert!((curve(&[3, 17, 20, 19, 20]).smallest.unwrap() - expected).abs() < 1e-12);
+        assert!((curve(&[3, 17, 20, 20, 20]).smallest.unwrap() - expected).abs() < 1e-12);
         assert_eq!(curve(&[19, 20, 20]).smallest, Some(2.0), "the smallest size of all");
-        assert_eq!(curve(&[3, 20, 18]).smallest, None, "the largest are not found");
+        assert_eq!(curve(&[3, 20, 16]).smallest, None, "the largest are not found: 36 of 40 together");
+        // One that was missed by chance among the larger ones: 39 of 40 together.
+        assert_eq!(curve(&[20, 19, 20]).smallest, Some(2.0));
+        assert!((curve(&[0, 20, 19, 20]).smallest.unwrap() - 2.0 * 1.6_f64.powf(0.95 / 0.975)).abs() < 1e-12);
         assert_eq!(curve(&[10, 20]).recall, Some(0.75));
     }
 

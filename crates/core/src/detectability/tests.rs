@@ -44,7 +44,7 @@ fn a_seed_gives_the_same_on_any_number_of_threads_and_another_seed_something_els
 
 #[test]
 fn larger_wild_points_are_found_at_least_as_often() {
-    let (t, y) = record(3000, 1.0);
+    let (t, y) = record(1500, 1.0);
     let advice = finished(&t, &y, vec![Setup::standard()], 2);
     for curve in &advice.methods[0].kinds {
         for pair in curve.points.windows(2) {
@@ -62,7 +62,7 @@ fn larger_wild_points_are_found_at_least_as_often() {
 #[test]
 fn twice_the_noise_needs_twice_the_size() {
     let of = |noise: f64| {
-        let (t, y) = record(3000, noise);
+        let (t, y) = record(1500, noise);
         let advice = finished(&t, &y, vec![Setup::standard()], 2);
         advice.methods[0].of_kind(Kind::Single).unwrap().smallest.unwrap()
     };

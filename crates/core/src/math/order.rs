@@ -39,6 +39,30 @@ pub fn median_of_many<E: Send>(n: usize, value: impl Fn(usize) -> f64 + Sync, ch
     median_of_smallest(n, n, value, check)
 }
 
+/// Quantile `q` (0 to 1) of `value(0 .. n)`, the one at or below, of many values: in parallel and without a copy of them.
+/// NaN without any. A negative zero counts as zero.
+///
+/// # Errors
+/// What `check` gives.
+pub fn quantile_of_many<E: Send>(
+    n: usize,
+    q: f64,
+    value: impl Fn(usize) -> f64 + Sync,
+    check: &impl Check<E>,
+) -> Result<f64, E> {
+    if n == 0 {
+        return Ok(f64::NAN);
+    }
+    #[expect(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "counts of samples are far below 2^53, and 0 <= q <= 1"
+    )]
+    let rank = (q * (n - 1) as f64) as usize;
+    Ok(rank::of_many(n, [rank, rank], value, check)?[0])
+}
+
 /// The median of the `count <= n` smallest of `value(0 .. n)`, as [`median_of_many`] finds it.
 ///
 /// # Errors

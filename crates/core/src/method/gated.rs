@@ -9,7 +9,9 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::judged::tolerance_of;
+use super::judged::{gated, tolerance_of};
+use super::local::Sample;
+use super::noise::Objection;
 use super::{Directions, Judged, Part, Restart, Verdict};
 use crate::stop::{Stop, Stopped};
 
@@ -32,6 +34,17 @@ pub struct Gated {
     gate: Option<Gate>,
     /// What is said of samples that the method did not see: position and verdict.
     unseen: Arc<[(u32, Verdict)]>,
+    /// What the calibration has against the samples, where the floor comes from that.
+    record: Option<Record>,
+}
+
+/// What the calibration has against each sample, and the share of a tolerance from which on one is doubtful.
+#[derive(Debug, Clone)]
+pub struct Record {
+    /// One for each sample.
+    pub objections: Arc<[Objection]>,
+    /// The setting `doubt`.
+    pub doubt: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -51,7 +64,14 @@ impl Gated {
             judged.tolerance = Vec::new();
             Gate { k, verdict: std::mem::take(&mut judged.verdict), still: Vec::new() }
         });
-        Self { scores: Arc::new(judged), gate, unseen: Arc::default() }
+        Self { scores: Arc::new(judged), gate, unseen: Arc::default(), record: None }
+    }
+
+    /// The same where `record` had a say in the verdicts, and has when the multiplier is turned.
+    #[must_use]
+    pub fn with_record(mut self, record: Option<Record>) -> Self {
+        self.record = record.filter(|r| r.objections.len() == self.verdict().len());
+        self
     }
 
     /// The same with the verdicts of samples that the method did not see, by position; they stay when the multiplier
@@ -84,14 +104,14 @@ impl Gated {
             for (block, (v, still)) in (piece * PIECE..).zip(verdict.chunks_mut(BLOCK).zip(still)) {
                 if !(still.0 < k && k < still.1) {
                     let range = block * BLOCK..block * BLOCK + v.len();
-                    *still = gate_block(v, &y[range.clone()], &expected[range.clone()], &scale[range], k);
+                    let record = self.record.as_ref().map(|r| (&r.objections[range.clone()], r.doubt));
+                    *still = gate_block(v, &y[range.clone()], &expected[range.clone()], (&scale[range], record), k);
                 }
             }
             Ok(())
         })?;
         put(&self.unseen, &mut verdict);
-        let (scores, unseen) = (Arc::clone(&self.scores), Arc::clone(&self.unseen));
-        Ok(Some(Self { scores, gate: Some(Gate { k, verdict, still }), unseen }))
+        Ok(Some(Self { gate: Some(Gate { k, verdict, still }), ..self.clone() }))
     }
 
     /// True when both gate the same scores.
@@ -168,21 +188,37 @@ fn put(verdicts: &[(u32, Verdict)], all: &mut [Verdict]) {
 }
 
 /// Gates a block; gives the multipliers between which its verdicts stay as they are.
-fn gate_block(verdict: &mut [Verdict], y: &[f64], expected: &[f64], scale: &[f64], k: f64) -> (f64, f64) {
+fn gate_block(
+    verdict: &mut [Verdict],
+    y: &[f64],
+    expected: &[f64],
+    (scale, record): (&[f64], Option<(&[Objection], f64)>),
+    k: f64,
+) -> (f64, f64) {
     let (mut low, mut high) = (0.0, f64::INFINITY);
-    for (((verdict, &y), &p), &s) in verdict.iter_mut().zip(y).zip(expected).zip(scale) {
-        *verdict = Verdict::of_deviation(y, p, tolerance_of(k, s));
+    for (i, (((verdict, &y), &p), &s)) in verdict.iter_mut().zip(y).zip(expected).zip(scale).enumerate() {
+        let record = record.map(|(objections, doubt)| (objections[i], doubt));
+        *verdict = gated(y, p, tolerance_of(k, s), record);
         // Without an expected value, and with a scale of zero, no multiplier flags.
         if p.is_nan() || s.is_nan() || s <= 0.0 {
             continue;
         }
-        let ratio = (y - p).abs() / s;
-        if !ORDINARY.contains(&s) || ratio.is_nan() {
+        let distance = (y - p).abs();
+        let turns = match record {
+            Some((objection, doubt)) => Sample { distance, objection }.turns(s, doubt),
+            None => [distance / s; 4],
+        };
+        if !ORDINARY.contains(&s) || turns.iter().any(|turn| turn.is_nan()) {
             (low, high) = (f64::INFINITY, 0.0);
-        } else if *verdict == Verdict::Outlier {
-            high = f64::min(high, ratio * (1.0 - MARGIN));
-        } else {
-            low = f64::max(low, ratio * (1.0 + MARGIN));
+            continue;
+        }
+        for turn in turns {
+            // A tie reaches a limit, so the verdict at the turn is that below it.
+            if k <= turn * (1.0 + MARGIN) {
+                high = f64::min(high, turn * (1.0 - MARGIN));
+            } else {
+                low = f64::max(low, turn * (1.0 + MARGIN));
+            }
         }
     }
     (low, high)
@@ -222,11 +258,42 @@ mod tests {
         }
     }
 
+    proptest! {
+        /// The same where the record has a say.
+        #[test]
+        fn steps_give_what_a_fresh_gate_gives_where_the_record_has_a_say(
+            samples in proptest::collection::vec(
+                (prop_oneof![-30.0..30.0, (-60..60).prop_map(|i| f64::from(i) * 0.5), Just(f64::NAN)],
+                 prop_oneof![5 => Just(1.0), 5 => 0.1..9.0, 1 => Just(0.0), 1 => Just(f64::NAN)],
+                 prop_oneof![0.0..30.0, Just(0.0), (0..60).prop_map(|i| f64::from(i) * 0.5)]),
+                0..300),
+            doubt in prop_oneof![Just(1.0), Just(0.6), 0.1..1.0],
+            lower in prop_oneof![Just(1.0), 0.3..1.0],
+            steps in proptest::collection::vec(prop_oneof![0.5..9.0, (1..20).prop_map(|i| f64::from(i) * 0.5)], 1..8),
+        ) {
+            let n = samples.len();
+            let (y, expected) = (vec![0.0; n], samples.iter().map(|s| s.0).collect::<Vec<f64>>());
+            let scale: Vec<f64> = samples.iter().map(|s| s.1).collect();
+            let objections: Vec<Objection> = samples.iter().map(|s| Objection { outside: s.2, lower }).collect();
+            let fresh = |k| {
+                let mut judged = Judged { expected: expected.clone(), scale: scale.clone(), ..Judged::default() };
+                judged.gate_by(&y, k, Some((&objections, doubt)), &Stop::never()).unwrap();
+                judged
+            };
+            let record = Record { objections: objections.clone().into(), doubt };
+            let mut gated = Gated::new(fresh(3.0), Some(3.0)).with_record(Some(record));
+            for k in steps {
+                gated = gated.regated(&y, k, &Stop::never()).unwrap().unwrap();
+                prop_assert_eq!(gated.verdict(), &fresh(k).verdict);
+            }
+        }
+    }
+
     #[test]
     fn a_block_is_still_between_its_nearest_ratios() {
         let (y, expected, scale) = ([12.0, 4.0, 40.0], [10.0; 3], [1.0, 2.0, 3.0]);
         let mut verdict = [Verdict::Normal; 3];
-        let (low, high) = gate_block(&mut verdict, &y, &expected, &scale, 5.0);
+        let (low, high) = gate_block(&mut verdict, &y, &expected, (&scale, None), 5.0);
         assert_eq!(verdict, [Verdict::Normal, Verdict::Normal, Verdict::Outlier]);
         assert!((low - 3.0).abs() < 1e-5 && (high - 10.0).abs() < 1e-4 && low > 3.0 && high < 10.0);
     }

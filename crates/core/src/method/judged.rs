@@ -5,6 +5,8 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::Segment;
+use super::local::Sample;
+use super::noise::Objection;
 use super::verdict::{Direction, Restart, Verdict};
 use crate::math::pieces::{self, PIECE};
 use crate::param::Settings;
@@ -77,6 +79,18 @@ pub(super) fn tolerance_of(k: f64, scale: f64) -> f64 {
     if tolerance.is_infinite() { f64::NAN } else { tolerance }
 }
 
+/// What is said of the value `y` where `p` was expected within `tolerance`; with what the calibration has against the
+/// sample, and the share from which on it is doubtful.
+#[inline]
+pub(super) fn gated(y: f64, p: f64, tolerance: f64, record: Option<(Objection, f64)>) -> Verdict {
+    match record {
+        Some((objection, doubt)) if !p.is_nan() && tolerance.is_finite() => {
+            Sample { distance: (y - p).abs(), objection }.gated(tolerance, doubt)
+        }
+        _ => Verdict::of_deviation(y, p, tolerance),
+    }
+}
+
 impl Judged {
     /// `n` samples of which nothing can be said.
     #[must_use]
@@ -139,16 +153,30 @@ impl Judged {
     /// # Errors
     /// [`Stopped`] as soon as nobody waits for the result any more; there are no verdicts then.
     pub fn gate(&mut self, y: &[f64], k: f64, stop: &Stop) -> Result<(), Stopped> {
+        self.gate_by(y, k, None, stop)
+    }
+
+    /// The same where the calibration has something against each sample, with the share from which on one is doubtful.
+    pub(super) fn gate_by(
+        &mut self,
+        y: &[f64],
+        k: f64,
+        record: Option<(&[Objection], f64)>,
+        stop: &Stop,
+    ) -> Result<(), Stopped> {
         let n = self.scale.len();
         (self.tolerance, self.verdict) = (vec![0.0; n], vec![Verdict::Unchecked; n]);
         let scores = self.expected.par_chunks(PIECE).zip(self.scale.par_chunks(PIECE)).zip(y.par_chunks(PIECE));
         let pieces = self.tolerance.par_chunks_mut(PIECE).zip(self.verdict.par_chunks_mut(PIECE)).zip(scores);
-        pieces.try_for_each(|((tolerance, verdict), ((expected, scale), y))| {
+        pieces.enumerate().try_for_each(|(piece, ((tolerance, verdict), ((expected, scale), y)))| {
             stop.check()?;
             let said = tolerance.iter_mut().zip(verdict);
-            for ((tolerance, verdict), ((&p, &scale), &y)) in said.zip(expected.iter().zip(scale).zip(y)) {
+            for (i, ((tolerance, verdict), ((&p, &scale), &y))) in
+                (piece * PIECE..).zip(said.zip(expected.iter().zip(scale).zip(y)))
+            {
                 *tolerance = tolerance_of(k, scale);
-                *verdict = Verdict::of_deviation(y, p, *tolerance);
+                let objection = record.map(|(objections, doubt)| (objections[i], doubt));
+                *verdict = gated(y, p, *tolerance, objection);
             }
             Ok(())
         })

@@ -1,8 +1,12 @@
 //! The floor of each sample, applied to what a method says: noise that changes along the record needs a limit that
 //! changes with it, whatever the method.
 
+use rayon::prelude::*;
+
+use super::noise::Objection;
 use super::shared::{DOUBT, multiplier};
 use super::{Direction, Directions, Judged, Segment, Verdict, reaches};
+use crate::math::pieces::{self, PIECE};
 use crate::param::Settings;
 use crate::stop::{Stop, Stopped};
 
@@ -25,39 +29,101 @@ pub(super) fn bounded_below(
     if segment.floors.len() != judged.verdict.len() {
         return Ok(judged);
     }
-    stop.check()?;
     let (k, doubt) = (multiplier(settings), settings.real(DOUBT.key));
-    judged.scale.clear();
-    for (i, change) in changes(&judged).into_iter().enumerate() {
-        let expected = judged.expected[i];
-        if judged.tolerance[i].is_nan() || expected.is_nan() {
-            continue;
+    if judged.scale.len() == judged.verdict.len() {
+        pieces::over(&mut judged.scale, &|| stop.check(), |first, scale| {
+            // A scale that is not known stays so.
+            scale
+                .iter_mut()
+                .zip(&segment.floors[first..])
+                .filter(|(s, _)| !s.is_nan())
+                .for_each(|(s, f)| *s = s.max(*f));
+        })?;
+        judged.gate_by(segment.y, k, Some((segment.objections, doubt)), stop)?;
+        return Ok(judged);
+    }
+    let changes = changes(&judged);
+    let Judged { verdict, tolerance, expected, .. } = &mut judged;
+    let pieces = verdict.par_chunks_mut(PIECE).zip(tolerance.par_chunks_mut(PIECE)).enumerate();
+    pieces.try_for_each(|(piece, (verdict, tolerance))| {
+        stop.check()?;
+        for (i, (said, tolerance)) in (piece * PIECE..).zip(verdict.iter_mut().zip(tolerance)) {
+            if tolerance.is_nan() || expected[i].is_nan() {
+                continue;
+            }
+            *tolerance = tolerance.max(k * segment.floors[i]);
+            let sample = Sample { distance: (segment.y[i] - expected[i]).abs(), objection: segment.objections[i] };
+            let change = changes.get(i).copied().unwrap_or(false);
+            *said = sample.verdict(*said, *tolerance, doubt, change);
         }
-        let tolerance = judged.tolerance[i].max(k * segment.floors[i]);
-        judged.tolerance[i] = tolerance;
-        let (distance, objection) = ((segment.y[i] - expected).abs(), segment.objections[i]);
-        let both_sides = |limit: f64| reaches(distance, limit) && objection.outside >= OUTSIDE * limit;
-        let said = judged.verdict[i];
-        judged.verdict[i] = match said {
-            Verdict::Outlier if both_sides(tolerance) => Verdict::Outlier,
-            Verdict::Outlier if reaches(distance, tolerance) => Verdict::Suspect,
+        Ok(())
+    })?;
+    Ok(judged)
+}
+
+/// What is known of a sample besides its tolerance.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sample {
+    /// How far it lies from its expected value.
+    pub(super) distance: f64,
+    /// What the calibration has against it.
+    pub(super) objection: Objection,
+}
+
+impl Sample {
+    /// What is said of it by both sides of the record, where the method has `said` something of it; `change` is true
+    /// where a real change begins, if it is one.
+    #[inline]
+    fn verdict(self, said: Verdict, tolerance: f64, doubt: f64, change: bool) -> Verdict {
+        match said {
+            Verdict::Outlier if self.both_sides(tolerance) => Verdict::Outlier,
+            Verdict::Outlier if reaches(self.distance, tolerance) => Verdict::Suspect,
             // What only one direction objects to: its expected value is that of the other one.
             Verdict::Suspect if doubt >= 1.0 || change => Verdict::Suspect,
-            Verdict::Outlier | Verdict::Suspect | Verdict::Normal
-                if doubt < 1.0 && both_sides(doubt * objection.lower * tolerance) =>
-            {
+            Verdict::Outlier | Verdict::Suspect | Verdict::Normal if self.is_doubtful(tolerance, doubt) => {
                 Verdict::Suspect
             }
             Verdict::Outlier | Verdict::Suspect => Verdict::Normal,
             other => other,
-        };
+        }
     }
-    Ok(judged)
+
+    /// The same where the multiplier only gates: the method says no more than that the distance reaches the tolerance.
+    #[inline]
+    pub(super) fn gated(self, tolerance: f64, doubt: f64) -> Verdict {
+        if reaches(self.distance, tolerance) {
+            if self.both_sides(tolerance) { Verdict::Outlier } else { Verdict::Suspect }
+        } else if self.is_doubtful(tolerance, doubt) {
+            Verdict::Suspect
+        } else {
+            Verdict::Normal
+        }
+    }
+
+    fn both_sides(self, limit: f64) -> bool {
+        reaches(self.distance, limit) && self.objection.outside >= OUTSIDE * limit
+    }
+
+    fn is_doubtful(self, tolerance: f64, doubt: f64) -> bool {
+        doubt < 1.0 && self.both_sides(doubt * self.objection.lower * tolerance)
+    }
+
+    /// The multipliers of `scale` at which its verdict changes.
+    #[inline]
+    pub(super) fn turns(self, scale: f64, doubt: f64) -> [f64; 4] {
+        let (ratio, outside) = (self.distance / scale, self.objection.outside / (OUTSIDE * scale));
+        let lower = doubt * self.objection.lower;
+        // Where nothing is doubtful, the lower limit turns nothing.
+        if doubt < 1.0 { [ratio, outside, ratio / lower, outside / lower] } else { [ratio, outside, ratio, outside] }
+    }
 }
 
 /// The samples at which a real change begins, if it is one: of each run that is suspect, those with which an objection
-/// begins, or both ends where none does.
+/// begins, or both ends where none does. Empty where there is none.
 fn changes(judged: &Judged) -> Vec<bool> {
+    if !judged.verdict.contains(&Verdict::Suspect) {
+        return Vec::new();
+    }
     let mut changes = vec![false; judged.verdict.len()];
     let mut first = 0;
     for run in judged.verdict.chunk_by(|a, b| (*a == Verdict::Suspect) == (*b == Verdict::Suspect)) {

@@ -10,7 +10,7 @@ use super::shared::{FLOOR, RECORD, multiplier};
 use super::{exceeds, zero_scale_of_many};
 use crate::calibration::{Calibration, calibrate};
 use crate::math::movement::smallest_movement;
-use crate::math::order::{MAD_TO_SIGMA, Middle, median, median_of_many, median_of_smallest};
+use crate::math::order::{MAD_TO_SIGMA, Middle, median_of_many, median_of_smallest};
 use crate::math::{difference, pieces, smoothing};
 use crate::param::{Choice, Kind, Settings};
 use crate::series::Series;
@@ -37,7 +37,7 @@ pub struct Scales {
 }
 
 /// What the calibration has against a sample, whatever the method.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Objection {
     /// How far it lies outside of what both sides expect ([`Calibration::objections`]), in channel units.
     pub outside: f64,
@@ -78,12 +78,16 @@ pub fn scales_by(
     calibration: Option<&Calibration>,
     stop: &Stop,
 ) -> Result<Vec<Scales>, Stopped> {
-    let own = calibration.filter(|_| by_record(settings)).map(|c| record_floors(c, settings));
-    let objections = calibration.filter(|_| own.is_some()).map(objections);
+    let calibration = calibration.filter(|_| by_record(settings));
+    let own = calibration.map(|c| record_floors(c, settings, stop)).transpose()?;
+    let objections = calibration.map(|c| objections(c, stop)).transpose()?;
     let floors = match (choice(settings, "floor"), &own) {
         (None, _) => vec![0.0; segments.len()],
         (Some(Choice::Number(x)), _) => vec![x; segments.len()],
-        (Some(Choice::Word(_)), Some(own)) => segments.iter().map(|s| median(&own[s.clone()])).collect(),
+        (Some(Choice::Word(_)), Some(own)) => {
+            let median = |s: &Range<usize>| median_of_many(s.len(), |i| own[s.start + i], &|| stop.check());
+            segments.iter().map(median).collect::<Result<_, _>>()?
+        }
         (Some(Choice::Word(_)), None) => auto_floor(series, segments, stop)?,
     };
     let sigmas = match choice(settings, "sigma") {
@@ -110,14 +114,19 @@ pub fn scales_by(
 
 /// The floor of each sample: the limit of the calibration over the default of the multiplier, so that the multiplier
 /// still turns it. 0 where nothing is known.
-fn record_floors(calibration: &Calibration, settings: &Settings) -> Arc<[f64]> {
+fn record_floors(calibration: &Calibration, settings: &Settings, stop: &Stop) -> Result<Arc<[f64]>, Stopped> {
     let usual = multiplier(&Settings::defaults(settings.params()));
-    calibration.limits.iter().map(|limit| if limit.is_finite() { limit / usual } else { 0.0 }).collect()
+    let floor = |i: usize| {
+        let limit = calibration.limits[i];
+        if limit.is_finite() { limit / usual } else { 0.0 }
+    };
+    Ok(pieces::collect(calibration.limits.len(), &|| stop.check(), floor)?.into())
 }
 
-fn objections(calibration: &Calibration) -> Arc<[Objection]> {
+fn objections(calibration: &Calibration, stop: &Stop) -> Result<Arc<[Objection]>, Stopped> {
     let lower = 1.0 / calibration.tails;
-    calibration.objections.iter().map(|&outside| Objection { outside, lower }).collect()
+    let objection = |i: usize| Objection { outside: calibration.objections[i], lower };
+    Ok(pieces::collect(calibration.objections.len(), &|| stop.check(), objection)?.into())
 }
 
 /// False when the method measures a scale of its own and knows none of the words that ask for one of these.
