@@ -36,7 +36,13 @@ fn is_gap(t: &[f64], i: usize, gap: f64) -> bool {
     let steps = t.len() - 1;
     let near = || (i.saturating_sub(NEAR)..i).chain(i + 1..steps.min(i + 1 + NEAR)).map(step);
     let dt = step(i);
-    // Most steps are as long as the one beside them, and no longer than any.
+    if (NEAR..steps.saturating_sub(NEAR)).contains(&i) {
+        // Most steps are no longer than the one before or after.
+        let beside = dt <= step(i - 1) || dt <= step(i + 1);
+        if beside && dt <= gap * step(i - NEAR).min(step(i + NEAR)) {
+            return false;
+        }
+    }
     let ends = [near().next(), near().next_back()].into_iter().flatten().fold(f64::INFINITY, f64::min);
     if dt <= gap * ends && near().any(|other| dt <= other) && near().nth(1).is_some() {
         return false;
