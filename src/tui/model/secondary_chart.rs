@@ -54,7 +54,7 @@ impl LowerKind {
         match self {
             Self::Residual => "residual",
             Self::Histogram => "histogram",
-            Self::Steps => "steps of time",
+            Self::Steps => "time steps",
             Self::Consensus => "all methods",
         }
     }

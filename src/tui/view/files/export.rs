@@ -44,7 +44,7 @@ pub(super) fn draw(model: &Model, form: &ExportForm, area: Rect, buffer: &mut Bu
         lines.push((line, Some(i)));
     }
     let help = form.rows.get(form.choice).map_or("", |row| row.kind.help());
-    let below = ["", help, "All that is chosen appears together, or nothing does."];
+    let below = ["", help, "All chosen files are written together, or none."];
     lines.extend(below.map(|text| (Line::styled(text, theme.dim), None)));
     choices(model, lines, 0, inside, buffer)
 }

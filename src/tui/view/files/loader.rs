@@ -27,9 +27,9 @@ pub(super) fn draw(model: &Model, form: &LoaderForm, area: Rect, buffer: &mut Bu
     let mut lines: Vec<Line<'static>> = Vec::new();
     let theme = &model.theme;
     let what = if form.again {
-        "Enter loads it so; settings stay, and decisions where the rows are the same."
+        "Enter: reload with these settings. The method's settings stay; so do decisions on unchanged rows."
     } else {
-        "Enter opens it so."
+        "Enter: open with these settings."
     };
     let (what, style) = if form.stale { ("looking …", theme.warning) } else { (what, theme.dim) };
     lines.push(Line::styled(what, style));
