@@ -98,8 +98,8 @@ fn what_is_certain_is_done_and_told_and_what_is_doubtful_is_offered_on_one_key()
         _ => level(i),
     }));
     let mut bench = Bench::on(&text);
-    assert!(bench.toast().contains("-9999.0 41 times (13.67 %) stands for no value"), "{}", bench.toast());
-    assert!(bench.toast().contains("9999.0 once may stand for no value: gf takes it"), "{}", bench.toast());
+    assert!(bench.toast().contains("-9999.0 41 times (13.67 %) is a fill value"), "{}", bench.toast());
+    assert!(bench.toast().contains("9999.0 once may be a fill value: gf takes it"), "{}", bench.toast());
     assert_eq!((bench.done().checks.len(), bench.verdict(120)), (1, Verdict::Outlier));
     bench.keys("gf");
     assert_eq!(bench.done().checks.len(), 2);

@@ -168,7 +168,7 @@ fn folders_are_entered_and_left_and_a_path_can_be_typed() {
     assert_eq!(bench.key(KeyCode::Enter), [Effect::Files(Task::List("/data/tracks/2026".into()))]);
     bench.news(News::Listed(Ok(listing())));
     bench.typed("../elsewhere/x.csv");
-    assert!(bench.frame().contains("nothing fits; Enter takes it as a path"));
+    assert!(bench.frame().contains("no match; Enter opens it as a path"));
     let effects = bench.key(KeyCode::Enter);
     assert_eq!(effects, [Effect::Files(Task::List("/data/tracks/../elsewhere/x.csv".into()))]);
     // It is a file: it is opened.

@@ -129,7 +129,7 @@ fn a_review_of_100_flags_takes_100_to_110_keystrokes() {
     let wild: Vec<usize> = (0..100).map(|i| 40 + 29 * i).collect();
     let mut bench = Bench::on(&record(3000, &wild));
     assert_eq!(bench.model.state().drawn.as_ref().unwrap().outcome.counts.flagged, 100, "what was put there");
-    while !bench.said().contains("every flag has been decided on") {
+    while !bench.said().contains("every flag is decided") {
         // Every seventh is overruled.
         bench.keys(if bench.pressed % 7 == 6 { "r" } else { "a" });
         assert!(bench.pressed <= 110, "still not through: {}", bench.frame());
@@ -230,7 +230,7 @@ fn conflicts_are_counted_marked_and_walked() {
     bench.keys("aaa");
     assert_eq!(bench.decisions(0).len(), 3);
     bench.keys("gc");
-    assert_eq!(bench.said(), "no decision is against what the method says now");
+    assert_eq!(bench.said(), "no decision contradicts the method");
     bench.keys(":set k 90\n");
     assert_eq!(bench.model.state().drawn.as_ref().unwrap().outcome.counts.conflicts, 2);
     assert!(bench.frame().lines().next().unwrap().contains(" !2"), "{}", bench.frame());
