@@ -372,7 +372,7 @@ fn outputs_are_chosen_named_and_written_together() {
         bench.typed("out/r.pdf");
         bench.key(KeyCode::Enter);
         assert!(bench.key(KeyCode::Enter).is_empty(), "there is no such report");
-        assert!(bench.frame().contains("does not say what the report is"), "{}", bench.frame());
+        assert!(bench.frame().contains("unknown report format"), "{}", bench.frame());
         bench.typed("e");
         (0..3).for_each(|_| drop(bench.key(KeyCode::Backspace)));
         bench.typed("md");

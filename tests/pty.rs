@@ -155,9 +155,9 @@ fn nothing_is_overwritten_without_being_told_to() {
     let (folder, mut terminal) = workbench(COMPACT);
     std::fs::write(folder.path("there.toml"), "kept").unwrap();
     terminal.keys(":w there.toml\r");
-    terminal.wait_for("there.toml is there already");
+    terminal.wait_for("there.toml already exists");
     terminal.keys("\x1b");
-    terminal.wait_until("no question", |screen| !screen.contents().contains("is there already"));
+    terminal.wait_until("no question", |screen| !screen.contents().contains("already exists"));
     terminal.keys(":export demo.csv\r");
     terminal.wait_for("demo.csv: this is the input");
     assert_eq!(folder.text("there.toml"), "kept");

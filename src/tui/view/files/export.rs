@@ -26,7 +26,7 @@ pub(super) fn draw(model: &Model, form: &ExportForm, area: Rect, buffer: &mut Bu
             lines.push((typed(model, &head, input, inside.width), None));
             continue;
         }
-        let there = if row.there { "  there already" } else { "" };
+        let there = if row.there { "  exists" } else { "" };
         let room = width.saturating_sub(head.chars().count() + there.len());
         let path = end_of(&printable(&row.path.display().to_string()), room);
         let style = if chosen {
