@@ -274,7 +274,10 @@ fn every_field_of_the_loader_can_be_reached_at_the_least_size() {
     bench.news(News::Seen { glance, result: Ok(seen(&told)), lines: Vec::new() });
     for field in wildpoint::tui::update::FIELDS {
         let frame = bench.frame();
-        assert!(frame.contains(&format!("> {}", field.name)) && frame.contains("Enter loads it so"), "{frame}");
+        assert!(
+            frame.contains(&format!("> {}", field.name)) && frame.contains("Enter: reload with these settings"),
+            "{frame}"
+        );
         bench.key(KeyCode::Down);
     }
     assert!(bench.frame().contains("> time column"));
@@ -338,7 +341,7 @@ fn a_changed_option_is_looked_at_and_taken_with_enter() {
 fn the_picker_corrects_how_its_choice_is_loaded() {
     let mut bench = picker(Glyphs::Unicode);
     bench.key(KeyCode::Tab);
-    assert!(bench.frame().contains("a session says itself how its record is loaded"), "{}", bench.frame());
+    assert!(bench.frame().contains("a session already says how its record is loaded"), "{}", bench.frame());
     bench.key(KeyCode::Down);
     let effects = bench.key(KeyCode::Tab);
     assert_eq!(effects, [Effect::Files(Task::Look(Glance::file(DEMO.into())))]);

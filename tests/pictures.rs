@@ -54,14 +54,14 @@ const SCENES: &[Scene] = &[
             step("r", "r", "reject it: a good sample", 2.0),
             step("0", "0", "show the whole record", 1.5),
             step("....", ". . . .", "raise the threshold", 2.0),
-            step("CC", "C C", "run all methods", 3.0),
+            step("C", "C", "run all methods", 3.0),
             step(":w demo.toml\r", ":w demo.toml", "save the session", 3.0),
         ],
     },
     Scene { name: "tutorial-start", size: SMALL, steps: &[step("", "", "", 0.0)] },
     Scene { name: "tutorial-flag", size: SMALL, steps: &[step("nz", "", "", 0.0)] },
     Scene { name: "tutorial-threshold", size: SMALL, steps: &[step("....", "", "", 0.0)] },
-    Scene { name: "tutorial-consensus", size: SMALL, steps: &[step("nCC", "", "", 0.0)] },
+    Scene { name: "tutorial-consensus", size: SMALL, steps: &[step("nC", "", "", 0.0)] },
     Scene { name: "tutorial-export", size: SMALL, steps: &[step("\x05", "", "", 0.0)] },
 ];
 

@@ -115,7 +115,11 @@ fn a_markdown_report_carries_its_pictures() {
     folder.done("clean demo.csv --report report.md -q");
     let markdown = folder.text("report.md");
     let pictures = markdown.matches("](data:image/svg+xml;base64,").count();
-    assert_eq!(pictures, 2 * (3 + 6), "overview, trace, residual and six from near for each channel");
+    assert_eq!(
+        pictures,
+        2 * (5 + 12),
+        "overview, trace, two residuals, histogram and twelve close-ups for each channel"
+    );
     assert!(markdown.starts_with("# demo.csv\n") && markdown.contains("## vx\\_mps \\[m/s\\]\n"));
 }
 

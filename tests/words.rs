@@ -14,7 +14,7 @@ const SHOWN: &str = "src/cli";
 /// Pages with the words of the source documents.
 const QUOTING: [&str; 4] = ["docs/terms.md", "docs/methods.md", "docs/references.md", "src/experiment"];
 /// Texts that are part of saved results and stay what they are.
-const KEPT: [&str; 2] = ["patch", "stands for no value"];
+const KEPT: [&str; 3] = ["patch", "patches", "stands for no value"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -106,7 +106,9 @@ fn has(text: &str, word: &str) -> bool {
         let after = text[at + word.len()..].chars().next();
         // The name of an option or of a key goes on with these.
         let inside = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == '-');
-        !inside(before) && !inside(after)
+        // A comma begins a word by itself.
+        let starts = word.starts_with(char::is_alphanumeric);
+        !(starts && inside(before)) && !inside(after)
     })
 }
 

@@ -198,7 +198,7 @@ mod tests {
             ("[screen]\nmouse = 1", 2, "mouse: this is of type integer", "true or false"),
             ("[screen]\nfps = 0", 2, "fps = 0: out of range", "1 to 120"),
             ("[screen]\nglyphs = \"uni\"", 2, "uni: there is no such glyph set", "unicode"),
-            ("[screen]\nmouse = true\nmouse = true", 3, "duplicate key", "no TOML"),
+            ("[screen]\nmouse = true\nmouse = true", 3, "duplicate key", "not valid TOML"),
         ] {
             let told = read(text).map(|_| ()).unwrap_err().to_string();
             let start = format!("config.toml:{line}: ");

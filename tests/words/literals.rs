@@ -80,7 +80,7 @@ fn strings_and_shown_comments_are_found() {
         "/// Shown\n/// here.\nlet a = \"one \\\n    two\"; // not \"this\"\nlet c = '\"'; let b = r#\"a \"b\"\"#;\n";
     assert_eq!(
         literals(code, true),
-        [(3, " Shown  here. ".to_owned()), (3, "one two".to_owned()), (5, "a \"b\"".to_owned())]
+        [(2, " Shown  here. ".to_owned()), (3, "one two".to_owned()), (5, "a \"b\"".to_owned())]
     );
     assert_eq!(literals(code, false).len(), 2);
 }

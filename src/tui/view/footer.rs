@@ -122,9 +122,9 @@ fn overlay_items(overlay: &Overlay) -> Option<Vec<(String, &'static str)>> {
         Overlay::Prompt(_) => &[("Enter", "do it"), ("Esc", "leave it")],
         Overlay::CommandLine(..) => &[("any key", "goes back")],
         Overlay::Recover(found) if found.first().is_some_and(|f| f.missing.is_some()) => {
-            &[("d", "drop it"), ("Esc", "decide later")]
+            &[("d", "discard it"), ("Esc", "decide later")]
         }
-        Overlay::Recover(_) => &[("r", "restore it"), ("d", "drop it"), ("Esc", "decide later")],
+        Overlay::Recover(_) => &[("r", "restore it"), ("d", "discard it"), ("Esc", "decide later")],
         Overlay::Merge(_) => &[("h", "keep what is here"), ("t", "take what is there"), ("Esc", "take nothing in")],
         Overlay::Files(dialog) => of_dialog(dialog),
         Overlay::ConfirmQuit => &[("w", "save and quit"), ("d", "discard and quit"), ("Esc", "stay")],
@@ -146,7 +146,7 @@ fn of_dialog(dialog: &Dialog) -> &'static [(&'static str, &'static str)] {
             &[("Enter", "take it"), ("Esc", "leave it")]
         }
         Dialog::Loader(_) => &[
-            ("Enter", "load so"),
+            ("Enter", "load"),
             ("↑↓", "choose"),
             ("←→", "change"),
             ("e", "type"),

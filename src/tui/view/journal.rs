@@ -43,8 +43,8 @@ pub(super) fn draw(model: &Model, at: usize, area: Rect, buffer: &mut Buffer) ->
         };
         let number = format!("{chosen}{current}{line:>5} {separator} ");
         let room = usize::from(body.width).saturating_sub(number.chars().count());
-        let undone = if line > done.len() { "  (undone)" } else { "" };
-        let words = fit(&format!("{words}{undone}"), room);
+        let mark = if line > done.len() { "  (undone)" } else { "" };
+        let words = fit(&format!("{words}{mark}"), room);
         let text = Line::from(vec![Span::styled(number, theme.dim), Span::styled(words, style)]);
         text.render(place, buffer);
         choices.push(Choice { place, index: line });
