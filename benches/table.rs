@@ -1,4 +1,4 @@
-//! The table of the README: what the other benchmarks of this run measured, beside the budgets. It runs last:
+//! The table of `docs/benchmarks.md`: what the other benchmarks of this run measured, beside the budgets. It runs last:
 //! `WILDPOINT_UPDATE=1 cargo bench` measures everything and writes the table, `cargo bench` shows it.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a table is shown")]
@@ -118,11 +118,11 @@ fn main() {
     if std::env::var_os("WILDPOINT_UPDATE").is_none() {
         return;
     }
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/benchmarks.md");
     let old = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let (open, close) = ("<!-- benchmarks -->\n", "<!-- /benchmarks -->");
     let (Some(start), Some(end)) = (old.find(open), old.find(close)) else {
-        panic!("the README has no part benchmarks")
+        panic!("{} has no part benchmarks", path.display())
     };
     let new = format!("{}{table}{}", &old[..start + open.len()], &old[end..]);
     std::fs::write(&path, new).unwrap_or_else(|e| panic!("{}: {e}", path.display()));

@@ -21,6 +21,7 @@ mod experiments;
 mod inject;
 mod interrupted;
 mod methods;
+mod progress;
 mod replay;
 mod set;
 mod suggest;
@@ -29,7 +30,7 @@ mod table;
 mod targets;
 
 pub use interrupted::end_tidily;
-pub use methods::markdown as methods_table;
+pub use methods::{explained as methods_page, is_explained, markdown as methods_table};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -96,7 +97,10 @@ const THREADS_PER_CORE: usize = 4;
 pub fn set_threads(threads: Option<usize>) -> Result<()> {
     let Some(threads) = threads else { return Ok(()) };
     if threads == 0 {
-        return Err(Error::usage("--threads 0: no thread, no work", "give 1 or more, or leave it out for all cores"));
+        return Err(Error::usage(
+            "--threads 0: at least one thread is needed",
+            "give 1 or more, or leave it out for all cores",
+        ));
     }
     let most = std::thread::available_parallelism().map_or(1, usize::from) * THREADS_PER_CORE;
     if threads > most {

@@ -25,12 +25,13 @@ pub use prepare::PrepareArgs;
 pub use screen::{Color, ConfigArgs, Glyphs};
 pub use tools::{CompareArgs, FormatArg, JudgeArgs, StreamArgs, SweepArgs};
 
-/// Find, review and repair wild points of tracking records.
+/// Find, review and repair wild points (outliers) in tracking records.
 ///
-/// Without a command: opens the workbench on FILE, on a SESSION saved before, or on the built-in demonstration
-/// record. Where there is no terminal, prints one still frame and a summary.
+/// Without a command: opens the workbench on FILE, on a saved SESSION, or on the built-in demonstration record.
+/// Without a terminal, prints one still frame and a summary.
 #[derive(Debug, Parser)]
 #[command(name = "wildpoint", version, args_conflicts_with_subcommands = true, max_term_width = 100)]
+#[command(disable_help_subcommand = true, before_help = "Example: wildpoint data/demo.csv")]
 pub struct Cli {
     /// What to do without a screen.
     #[command(subcommand)]
@@ -49,16 +50,19 @@ pub struct Cli {
     /// Colours for a light background.
     #[arg(long)]
     pub light: bool,
-    /// Leave the mouse to the terminal, which then selects text with it (M changes it).
+    /// Leave the mouse to the terminal, which then selects text (M toggles it).
     #[arg(long)]
     pub no_mouse: bool,
     /// Which configuration to take.
     #[command(flatten)]
     pub config: ConfigArgs,
-    /// Memory that records and results may take, as in 500M and 4G [default: half of what the machine has].
+    /// Memory limit for records and results, for example 500M or 4G [default: half of the machine's memory].
     #[arg(long, value_name = "SIZE", global = true, value_parser = memory_size)]
     pub memory: Option<u64>,
-    /// Keep no journal: what is not saved is lost when the workbench is killed.
+    /// Name of the analyst, for reports [default: `analyst` in the configuration].
+    #[arg(long, value_name = "NAME")]
+    pub analyst: Option<String>,
+    /// Do not keep a journal: unsaved work is lost if the workbench is killed.
     #[arg(long)]
     pub no_journal: bool,
     /// How to load and judge.
@@ -76,14 +80,22 @@ pub enum Task {
     /// What needs no screen.
     #[command(flatten)]
     Batch(Command),
-    /// Print the keys of the workbench that are in force, as a configuration.
+    /// Print the key map in effect, in the form of a configuration file.
+    #[command(before_help = "Example: wildpoint keys > keys.toml")]
     Keys(ConfigArgs),
+    /// Show a page of the manual, or the help of a command or a method.
+    #[command(before_help = "Example: wildpoint help tutorial")]
+    Help {
+        /// The topic; none lists them.
+        topic: Option<String>,
+    },
 }
 
 /// The commands that need no screen.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Print what the loader understands of a file: columns, times, gaps, noise, bad rows.
+    /// Print how a file is read: columns, times, gaps, noise, bad rows.
+    #[command(before_help = "Example: wildpoint inspect data/demo.csv")]
     Inspect {
         /// The record.
         file: PathBuf,
@@ -94,11 +106,12 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Detect and repair wild points of one file or many.
+    /// Detect and repair outliers in one file or many.
     ///
     /// With several files the outputs are folders (`-o DIR/`, `--flags DIR/`, ...): the cleaned file keeps its name,
     /// the others are NAME.changed.csv, NAME.flags.csv, NAME.diagnostics.csv, NAME.html and NAME.toml. A file that fails does not stop the
     /// others; the exit status is 2 then.
+    #[command(before_help = "Example: wildpoint clean data/demo.csv -o clean.csv --flags flags.csv")]
     Clean {
         /// The records.
         #[arg(required = true, value_name = "FILE")]
@@ -106,14 +119,14 @@ pub enum Command {
         /// How to load and judge it.
         #[command(flatten)]
         shared: Shared,
-        /// Take the multiplier (k or c) that `wildpoint sweep` suggests for each channel; where it suggests none, the
-        /// one that is set stays. The session says so.
+        /// Use the threshold (k or c) that `wildpoint sweep` suggests for each channel; where it suggests none, keep the
+        /// current one. The session records it.
         #[arg(long)]
         suggest: bool,
         /// What to write.
         #[command(flatten)]
         outputs: OutputArgs,
-        /// Write the session that would reproduce this.
+        /// Write the session, which reproduces this result.
         #[arg(long, value_name = "SESSION")]
         save_session: Option<PathBuf>,
     },
@@ -122,6 +135,7 @@ pub enum Command {
     /// With several sessions the outputs are folders (`-o DIR/`, `--flags DIR/`, ...), in which files are named after
     /// the sessions. A session that fails does not stop the others; the exit status is 2 then, and 1 when only
     /// comparisons failed.
+    #[command(before_help = "Example: wildpoint replay demo.toml --check")]
     Replay {
         /// Session files.
         #[arg(required = true, value_name = "SESSION")]
@@ -129,11 +143,11 @@ pub enum Command {
         /// Compare with the result that each session recorded; write nothing. Exit status 1 when one differs.
         #[arg(long, conflicts_with_all = ["output", "flag_columns", "changed", "flags", "diagnostics", "report"])]
         check: bool,
-        /// Go on although the data are not those of the session.
+        /// Continue even if the data are not those of the session.
         #[arg(long)]
         accept_changed_data: bool,
-        /// Judge rows too that were added to the end of a record since its session was saved; every decision stays. With
-        /// --check they are left out, since the recorded result has none of them.
+        /// Also judge rows that were added to the end of the record since the session was saved; all decisions stay. With
+        /// --check they are left out, because the recorded result does not include them.
         #[arg(long)]
         accept_appended: bool,
         /// What to write.
@@ -145,17 +159,21 @@ pub enum Command {
     },
     /// Count outliers along a parameter, and suggest a threshold.
     #[command(long_about = tools::SWEEP, mut_arg("channel", one_channel))]
+    #[command(before_help = "Example: wildpoint sweep data/demo.csv --channel vx_mps")]
     Sweep(SweepArgs),
-    /// Every method on one channel, side by side.
+    /// Run every method on one channel and compare the results.
     #[command(long_about = tools::COMPARE, mut_arg("channel", one_channel))]
+    #[command(before_help = "Example: wildpoint compare data/demo.csv --channel vx_mps")]
     Compare(CompareArgs),
     /// Which method finds most on this record, measured on the record itself.
     #[command(long_about = advise::ADVISE, mut_arg("channel", one_channel))]
     Advise(AdviseArgs),
     /// Judge samples from standard input as they arrive.
     #[command(long_about = tools::STREAM, mut_arg("channel", one_channel))]
+    #[command(before_help = "Example: wildpoint stream --method five-point --set sigma=2.5 < data/demo.csv")]
     Stream(StreamArgs),
     /// List the methods, or explain one with its parameters.
+    #[command(before_help = "Example: wildpoint methods hampel")]
     Methods {
         /// Id of a method.
         id: Option<String>,
@@ -167,22 +185,43 @@ pub enum Command {
         markdown: bool,
     },
     /// Write the data of a published experiment.
+    #[command(before_help = "Example: wildpoint simulate jiang -o jiang.csv")]
     Simulate(SimulateArgs),
     /// Run the published experiments and print their tables beside ours.
+    #[command(before_help = "Example: wildpoint reproduce jiang")]
     Reproduce(ReproduceArgs),
-    /// Add known wild points to a record, with truth.
+    /// Add known outliers to a record, with a truth column.
     #[command(mut_arg("channel", one_channel))]
+    #[command(before_help = "Example: wildpoint inject data/demo.csv -o test.csv --isolated 2%")]
     Inject(InjectArgs),
     /// Print shell completions.
+    #[command(before_help = "Example: wildpoint completions bash > wildpoint.bash")]
     Completions {
         /// The shell.
         shell: clap_complete::Shell,
     },
     /// Print the manual page.
+    #[command(before_help = "Example: wildpoint man > wildpoint.1")]
     Man,
 }
 
 impl Command {
+    /// Puts the analyst of the configuration into a report that names none.
+    ///
+    /// # Errors
+    /// What `configured` gives; it is asked only where a report is written.
+    pub fn sign(&mut self, configured: impl FnOnce() -> Result<Option<String>>) -> Result<()> {
+        let outputs = match self {
+            Self::Clean { outputs, .. } | Self::Replay { outputs, .. } => outputs,
+            Self::Compare(args) => &mut args.outputs,
+            _ => return Ok(()),
+        };
+        if outputs.report.is_some() && outputs.analyst.is_none() {
+            outputs.analyst = configured()?;
+        }
+        Ok(())
+    }
+
     /// True when it prints nothing but errors.
     #[must_use]
     pub fn is_quiet(&self) -> bool {
@@ -198,69 +237,67 @@ impl Command {
 /// How to load a record.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Load {
-    /// Time column, or several with commas between them (`date,time` or `year,month,day,hour`) [default: what looks like
-    /// time, else the sample number].
+    /// Time column, or several separated by commas (`date,time` or `year,month,day,hour`) [default: the column that looks
+    /// like time, otherwise the sample number].
     #[arg(long, value_name = "COLUMN")]
     pub time: Option<String>,
-    /// Channel to work on; repeatable [default: every column of measurements; not
-    /// times, ids, flags and constants, for which `inspect` says why].
+    /// Channel to process; repeatable [default: every column of measurements; `inspect` says why a column is not one].
     #[arg(long, value_name = "COLUMN")]
     pub channel: Vec<String>,
-    /// Column of an id (satellite, aircraft, station) that tells several tracks in one table apart: each is judged by
-    /// itself, with times of its own. Its channels are called CHANNEL@ID; --channel takes that, or CHANNEL for all.
+    /// Column with the track id (satellite, aircraft, station), if the table holds several tracks. Each track is judged
+    /// separately, with its own times. Its channels are named CHANNEL@ID; --channel CHANNEL takes those of all tracks.
     #[arg(long, value_name = "COLUMN")]
     pub track: Option<String>,
-    /// Column of 0 and 1 that marks the real outliers.
+    /// Column in which 1 marks a true outlier, and 0 any other sample.
     #[arg(long, value_name = "COLUMN")]
     pub truth: Option<String>,
-    /// A cell text that means "no value"; repeatable, besides empty, NaN, NA, null and -.
+    /// Cell text for a missing value; repeatable, besides empty, NaN, NA, null and -.
     #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     pub missing: Vec<String>,
-    /// What stands between two cells [default: recognised].
+    /// Field separator [default: detected].
     #[arg(long, value_name = "WHAT", value_parser = worded::<Delimiter>())]
     pub delimiter: Option<Delimiter>,
-    /// How the bytes of the text are meant, where no byte order mark says so [default: UTF-8, or Latin-1 (Windows-1252)
-    /// where it is none].
+    /// Text encoding, where no byte order mark gives it [default: UTF-8, or Latin-1 (Windows-1252) where the text is
+    /// not UTF-8].
     #[arg(long, value_name = "WHICH", value_parser = worded::<Encoding>())]
     pub encoding: Option<Encoding>,
-    /// Unit of times that are numbers [default: that in the name of the column, otherwise seconds].
+    /// Unit of numeric times [default: the one in the column name, otherwise seconds].
     #[arg(long, value_name = "UNIT", value_parser = worded::<TimeUnit>())]
     pub time_unit: Option<TimeUnit>,
-    /// `1,5` means one and a half [default: recognised].
+    /// Numbers have a decimal comma [default: detected].
     #[arg(long)]
     pub decimal_comma: bool,
-    /// The first line is data, not names [default: recognised].
+    /// The first line is data, not column names [default: detected].
     #[arg(long)]
     pub no_header: bool,
     /// Quotes are ordinary characters.
     #[arg(long)]
     pub no_quotes: bool,
-    /// How dates like 1/2/2005 are meant, where the file does not show it.
+    /// Order of dates like 1/2/2005, where the file does not show it.
     #[arg(long, value_enum, value_name = "ORDER")]
     pub dates: Option<DateOrder>,
-    /// How times are written: %d.%m.%Y %H:%M:%S%.f (%j day of the year, %b month, %p AM/PM, %z zone) [default:
-    /// recognised].
+    /// Time format: %d.%m.%Y %H:%M:%S%.f (%j day of the year, %b month, %p AM/PM, %z zone) [default: detected].
     #[arg(long, value_name = "PATTERN", value_parser = pattern)]
     pub time_format: Option<Pattern>,
-    /// Zone of clocks that write none, like Europe/Berlin or +01:00 [default: UTC].
+    /// Time zone of times without one, like Europe/Berlin or +01:00 [default: UTC].
     #[arg(long, value_name = "ZONE")]
     pub time_zone: Option<String>,
-    /// Line (from 1) that names the columns [default: recognised from the rows below it].
+    /// Line (from 1) with the column names [default: detected from the rows below it].
     #[arg(long, value_name = "N", value_parser = from_one)]
     pub header_line: Option<usize>,
-    /// Lines at the start of the file that are not looked at.
+    /// Lines to skip at the start of the file.
     #[arg(long, value_name = "N")]
     pub skip: Option<usize>,
-    /// Line (from 1) of the units of the columns.
+    /// Line (from 1) with the units of the columns.
     #[arg(long, value_name = "N", value_parser = from_one)]
     pub units_line: Option<usize>,
-    /// What comments begin with, besides #, % and //.
+    /// Prefix of comment lines, besides #, % and //.
     #[arg(long, value_name = "TEXT", value_parser = mark)]
     pub comment: Option<String>,
-    /// Names of the columns, with commas between them, in place of those of the file; an empty one stays.
+    /// Column names, separated by commas, replacing those of the file; an empty one keeps the name.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub names: Vec<String>,
-    /// Which table of a file that has several (from 1) [default: the longest].
+    /// Which table to read, if the file has several (from 1) [default: the longest].
     #[arg(long, value_name = "N", value_parser = from_one)]
     pub table: Option<usize>,
 }
@@ -270,12 +307,12 @@ fn pattern(text: &str) -> std::result::Result<Pattern, String> {
 }
 
 fn from_one(text: &str) -> std::result::Result<usize, String> {
-    text.parse().ok().filter(|n| *n > 0).ok_or_else(|| "a whole number from 1 is wanted".into())
+    text.parse().ok().filter(|n| *n > 0).ok_or_else(|| "expected a whole number from 1".into())
 }
 
 fn mark(text: &str) -> std::result::Result<String, String> {
     let fits = (1..=16).contains(&text.len());
-    if fits { Ok(text.to_owned()) } else { Err("1 to 16 bytes are wanted".into()) }
+    if fits { Ok(text.to_owned()) } else { Err("expected 1 to 16 bytes".into()) }
 }
 
 /// One of the words for a value.
@@ -311,27 +348,27 @@ pub struct Shared {
     /// How to load it.
     #[command(flatten)]
     pub load: Load,
-    /// Channel that measures the rate of the judged one, for methods that need one.
+    /// Channel with the rate of change of the judged one, for methods that need it.
     #[arg(long, value_name = "COLUMN")]
     pub rate: Option<String>,
-    /// Column of outlier-free values, which is not judged: the summary of `clean` then has the final error of the
-    /// first judged channel, sqrt(mean((clean - reference)^2)) over the samples that have a value in the output.
+    /// Column with the outlier-free values; it is not judged. `clean` then reports the final error of the first channel:
+    /// sqrt(mean((clean - reference)^2)) over the samples that have a value in the output.
     #[arg(long, value_name = "COLUMN")]
     pub reference: Option<String>,
     /// Method (see `wildpoint methods`); `clean` takes auto, too: for each channel the one that `wildpoint advise`
     /// recommends.
     #[arg(long, value_name = "ID", default_value = DEFAULT_METHOD)]
     pub method: String,
-    /// Values to start from: those that work on real tracks, or those of the source documents.
+    /// Parameter values to start from: those that work on real tracks, or those of the source documents.
     #[arg(long, value_enum, default_value_t = PresetArg::Default)]
     pub preset: PresetArg,
     /// A parameter of the method or the repair; repeatable (see `wildpoint methods ID`).
     #[arg(long, value_name = "KEY=VALUE", value_parser = pair)]
     pub set: Vec<(String, String)>,
-    /// What is done with the channels before.
+    /// Checks before the method.
     #[command(flatten)]
     pub prepare: PrepareArgs,
-    /// What takes the place of an outlier: own, remove, linear, spline, polynomial, expected.
+    /// Replacement of an outlier: own (the method's own), remove, linear, spline, polynomial, expected.
     #[arg(long, value_name = "ID")]
     pub repair: Option<String>,
     /// Cut the record where more than this many samples are lost in a row.
@@ -351,14 +388,14 @@ pub struct Shared {
 /// What to write, and how.
 #[derive(Debug, Clone, Default, Args)]
 pub struct OutputArgs {
-    /// Write the cleaned file: the input again, only repaired and removed cells differ; as Parquet where the name ends
-    /// in .parquet.
+    /// Write the cleaned file: the input with outliers repaired or removed, all other bytes unchanged. A name that ends in
+    /// .parquet writes Parquet.
     #[arg(short, long, value_name = "CLEANED")]
     pub output: Option<PathBuf>,
     /// Columns of flags in the cleaned file.
     #[arg(long, value_name = "SCHEME", requires = "output", value_parser = scheme(), help = scheme_help())]
     pub flag_columns: Option<&'static Scheme>,
-    /// Write the changed cells alone: row, time, channel, old and new text, verdict, and who flagged it (CSV).
+    /// Write only the changed cells: row, time, channel, old and new text, verdict, and what flagged it (CSV).
     #[arg(long, value_name = "CHANGED")]
     pub changed: Option<PathBuf>,
     /// Write the audit table: every flag with its evidence (CSV).
@@ -370,6 +407,12 @@ pub struct OutputArgs {
     /// Write a report with pictures: one HTML file (.html) or one Markdown file (.md).
     #[arg(long, value_name = "REPORT")]
     pub report: Option<PathBuf>,
+    /// Name of the analyst, for the report [default: `analyst` in the configuration].
+    #[arg(long, value_name = "NAME", requires = "report")]
+    pub analyst: Option<String>,
+    /// Do all the work, say what would be written, and write nothing.
+    #[arg(long)]
+    pub dry_run: bool,
     /// Overwrite existing outputs (never the input).
     #[arg(long)]
     pub force: bool,
@@ -395,7 +438,7 @@ impl OutputArgs {
     pub fn check_standard_output(&self, session: Option<&Path>) -> Result<()> {
         match self.on_standard_output(session) + usize::from(self.json) {
             0 | 1 => Ok(()),
-            _ => Err(Error::usage("`-` is standard output, which takes one thing", "give the others names")),
+            _ => Err(Error::usage("only one output can be `-` (standard output)", "give the others file names")),
         }
     }
 
@@ -527,5 +570,18 @@ mod tests {
     fn the_command_line_is_well_formed() {
         use clap::CommandFactory;
         Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn every_help_opens_with_an_example_that_can_be_typed() {
+        use clap::CommandFactory;
+        let all = Cli::command();
+        for command in all.get_subcommands().chain([&all]) {
+            let example = command.get_before_help().map(ToString::to_string).unwrap_or_default();
+            let words = example.strip_prefix("Example: ").expect("an example");
+            let words = words.split(['<', '>']).next().unwrap_or_default();
+            let parsed = Cli::try_parse_from(words.split_whitespace());
+            assert!(parsed.is_ok(), "{example}: {}", parsed.unwrap_err());
+        }
     }
 }

@@ -5,8 +5,10 @@
 
 pub mod batch;
 pub mod cli;
+mod counted;
 pub mod experiment;
 pub mod job;
+pub mod manual;
 pub mod plot;
 pub mod report;
 pub mod stream;

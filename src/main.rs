@@ -8,6 +8,7 @@ use clap::Parser;
 use wildpoint::batch::{self, Ending};
 use wildpoint::cli::{Cli, Color, ConfigArgs, Glyphs as GlyphChoice, Task};
 use wildpoint::error::{Error, Result};
+use wildpoint::manual;
 use wildpoint::memory;
 use wildpoint::report::Summary;
 use wildpoint::session::{Analysed, Session, open_all};
@@ -41,14 +42,16 @@ fn main() -> ExitCode {
             let written = stdout.lock().write_all(listing.as_bytes()).map(|()| Ending::Done);
             written.map_err(Error::io("write", "standard output"))
         }),
+        Some(Task::Help { topic }) => manual::show(topic.as_deref()).map(|()| Ending::Done),
         Some(Task::Batch(command)) if output_is_closed() && !command.is_quiet() => {
-            let what = "standard output is closed: what the command says would be lost";
-            Err(Error::usage(what, "give it somewhere to go; with > /dev/null it is dropped on purpose"))
+            let what = "standard output is closed: the output of the command would be lost";
+            Err(Error::usage(what, "redirect it to a file, or to /dev/null to discard it"))
         }
-        Some(Task::Batch(command)) => {
+        Some(Task::Batch(mut command)) => {
             batch::end_tidily();
             let mut out = std::io::BufWriter::new(stdout.lock());
-            let ended = batch::run(command, &mut out);
+            let signed = command.sign(|| Config::find(None).map(|config| config.analyst));
+            let ended = signed.and_then(|()| batch::run(command, &mut out));
             let flushed = out.flush().map_err(Error::io("write", "standard output"));
             ended.and_then(|ending| flushed.map(|()| ending))
         }
@@ -102,6 +105,7 @@ fn workbench(cli: &Cli) -> Result<Ended> {
     batch::set_threads(cli.shared.threads)?;
     let mut config = configured(&cli.config)?;
     config.screen.mouse &= !cli.no_mouse;
+    config.analyst = cli.analyst.clone().or(config.analyst);
     let stdout = std::io::stdout();
     let dumb = std::env::var("TERM").is_ok_and(|t| t == "dumb");
     let screen = stdout.is_terminal() && !dumb;
@@ -139,8 +143,8 @@ fn opening(cli: &Cli) -> Result<Opening> {
             return Ok(Opening::from((open_all(path, Wanted::always())?, path.clone())));
         }
         Some(path) if path == Path::new(DASH) => {
-            let what = "the workbench needs a record that it can find again";
-            return Err(Error::usage(what, "save standard input as a file, and give its name"));
+            let what = "the workbench needs a file, not standard input";
+            return Err(Error::usage(what, "save standard input to a file and open that"));
         }
         Some(path) => Source::File(path.clone()),
     };

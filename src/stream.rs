@@ -26,6 +26,7 @@ use layout::{Content, Layout, Sample};
 use lines::{Line, Lines};
 use notes::{Counts, Notes};
 use output::Label;
+pub use output::STREAM_COLUMNS;
 pub use setup::Plan;
 
 /// The nominal interval is learnt from so many samples.
@@ -222,7 +223,7 @@ fn no_interval() -> Error {
     Error::input(
         "standard input",
         format!(
-            "no nominal interval can be learnt: of {MOST_HELD} rows fewer than {LEARNT_FROM} have a value at a later time"
+            "the nominal interval cannot be measured: of {MOST_HELD} rows fewer than {LEARNT_FROM} have a value and a later time"
         ),
         "give it with --interval, or name the right columns with --time and --channel",
     )

@@ -176,6 +176,7 @@ pub fn run(
 ) -> Result<Ended> {
     let mut model = opening.model(look);
     model.keys = config.keys;
+    model.analyst = config.analyst;
     (model.mouse, model.review.auto_advance) = (config.screen.mouse, config.screen.auto_advance);
     let signals = signals::listen()?;
     let mut outside = Outside::new(journal, &mut model);

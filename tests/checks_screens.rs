@@ -98,12 +98,12 @@ fn what_is_certain_is_done_and_told_and_what_is_doubtful_is_offered_on_one_key()
         _ => level(i),
     }));
     let mut bench = Bench::on(&text);
-    assert!(bench.toast().contains("-9999.0 41 times (13.67 %) stands for no value"), "{}", bench.toast());
-    assert!(bench.toast().contains("9999.0 once may stand for no value: gf takes it"), "{}", bench.toast());
+    assert!(bench.toast().contains("-9999.0 41 times (13.67 %) is a fill value"), "{}", bench.toast());
+    assert!(bench.toast().contains("9999.0 once may be a fill value: gf takes it"), "{}", bench.toast());
     assert_eq!((bench.done().checks.len(), bench.verdict(120)), (1, Verdict::Outlier));
     bench.keys("gf");
     assert_eq!(bench.done().checks.len(), 2);
-    assert!(bench.keys("gf").toast().contains("done already"));
+    assert!(bench.keys("gf").toast().contains("already set"));
     bench.keys("gk");
     assert!(!bench.done().checks_anything() && bench.done().checks.len() == 2, "kept, but off");
     bench.keys("gk");
@@ -135,7 +135,7 @@ fn a_check_is_made_by_a_command_stands_in_the_panel_and_says_why_on_the_card() {
     bench.keys(":uncheck all\r");
     assert!(bench.done().is_empty());
     bench.keys(":check valid-range\r");
-    assert!(bench.screen().contains("without a limit"), "{}", bench.screen());
+    assert!(bench.screen().contains("needs a limit"), "{}", bench.screen());
 }
 
 #[test]

@@ -1,37 +1,49 @@
-//! The README keeps its word: the generated parts are those of this program, and its commands are real.
-//! `WILDPOINT_UPDATE=1 cargo test --test docs` writes the generated parts again. The pages of `docs/` lead only to what is
-//! there, and describe every method with its parameters.
+//! The pages keep their word: the generated parts are those of this program, commands and links are real, and
+//! `wildpoint help` shows every page. `WILDPOINT_UPDATE=1 cargo test --test docs` writes the generated parts again.
 
 #![expect(clippy::expect_used, reason = "a test that cannot read its own data may say so by ending")]
 
+#[path = "docs/parts.rs"]
+mod parts;
+#[path = "docs/snippets.rs"]
+mod snippets;
+
 use std::path::{Path, PathBuf};
 
+use wildpoint::manual::PAGES;
 use wildpoint::method::METHODS;
 use wildpoint::repair;
-use wildpoint::session::{Session, Setup};
-use wildpoint::track::{FORMATS, LoadOptions, Source, load, refused};
-use wildpoint::tui::plot::Glyphs;
-use wildpoint::tui::theme::Theme;
-use wildpoint::tui::{Look, Opening, still};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn path() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("README.md")
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
-/// The workbench on the built-in record, as `cargo run` shows it.
-fn frame() -> Result<String, wildpoint::error::Error> {
-    let options = LoadOptions::default();
-    let track = load(&Source::demo(), &options)?;
-    let session = Session::new(&track, options, &Setup::standard());
-    let opening = Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() };
-    still(opening, Look { theme: Theme::mono(), glyphs: Glyphs::Unicode }, (112, 32))
+/// The files below a folder.
+fn below(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("the folder is there").map(|e| e.expect("an entry").path());
+    entries.flat_map(|path| if path.is_dir() { below(&path) } else { vec![path] }).collect()
 }
 
-/// The text with what stands between the markers of `name` replaced.
+/// The pages of the book, by their paths.
+fn book() -> Vec<PathBuf> {
+    let mut pages: Vec<PathBuf> =
+        below(&root().join("docs")).into_iter().filter(|p| p.extension().is_some_and(|e| e == "md")).collect();
+    pages.sort();
+    pages
+}
+
+/// The pages that people read: the book, and those in the root.
+fn pages() -> Vec<PathBuf> {
+    let mut pages = book();
+    pages.extend(["README.md", "CONTRIBUTING.md"].map(|name| root().join(name)));
+    pages
+}
+
+/// The text with what is between the markers of `name` replaced.
 fn with_part(text: &str, name: &str, part: &str) -> String {
     let (open, close) = (format!("<!-- {name} -->\n"), format!("<!-- /{name} -->"));
     let start = text.find(&open).map(|at| at + open.len());
@@ -43,70 +55,41 @@ fn with_part(text: &str, name: &str, part: &str) -> String {
 }
 
 #[test]
-fn frame_methods_and_keys_of_the_readme_are_those_of_the_program() {
-    let old = std::fs::read_to_string(path()).expect("the README is there");
-    let frame = frame().expect("the built-in record can be judged");
-    let mut new = with_part(&old, "frame", &format!("```text\n{}\n```\n", frame.trim_end()));
-    new = with_part(&new, "methods", &wildpoint::batch::methods_table());
-    new = with_part(&new, "flags", &wildpoint::session::schemes_table());
-    new = with_part(&new, "keys", &wildpoint::tui::keys::markdown());
-    if std::env::var_os("WILDPOINT_UPDATE").is_some() {
-        std::fs::write(path(), &new).expect("the README can be written");
-    }
-    let now = std::fs::read_to_string(path()).expect("the README is there");
-    let first = now.lines().zip(new.lines()).position(|(a, b)| a != b);
-    assert!(now == new, "README.md is stale from line {:?} on: run WILDPOINT_UPDATE=1 cargo test --test docs", first);
-}
-
-/// A table of two columns or more, as Markdown has it.
-fn table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-    let names: Vec<String> = head.iter().map(|h| (*h).to_owned()).collect();
-    let ruler = format!("|{}\n", "---|".repeat(head.len()));
-    // A pipe would part cells.
-    rows.map(|row| line(&row.iter().map(|c| c.replace('|', "\\|")).collect::<Vec<_>>()))
-        .fold(format!("{}{ruler}", line(&names)), |text, row| text + &row)
-}
-
-#[test]
-fn the_page_of_what_is_read_is_that_of_the_registry() {
-    let path = root().join("docs/what-it-reads.md");
-    let old = std::fs::read_to_string(&path).expect("the page is there");
-    let formats = FORMATS.iter().map(|f| vec![f.name.into(), f.about.into(), f.known_by.into(), f.maps.into()]);
-    let formats = table(&["format", "what it is", "known by", "what is read"], formats);
-    let refused = table(&["what", "what converts it"], refused().map(|(name, help)| vec![name.into(), help.into()]));
-    let new = with_part(&with_part(&old, "formats", &formats), "refused", &refused);
-    if std::env::var_os("WILDPOINT_UPDATE").is_some() {
-        std::fs::write(&path, &new).expect("the page can be written");
-    }
-    let now = std::fs::read_to_string(&path).expect("the page is there");
-    assert!(now == new, "docs/what-it-reads.md is stale: run WILDPOINT_UPDATE=1 cargo test --test docs");
-}
-
-#[test]
-fn the_commands_of_the_readme_exist() {
-    use clap::CommandFactory;
-    let text = std::fs::read_to_string(path()).expect("the README is there");
-    let command = wildpoint::cli::Cli::command();
-    let known: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
-    let mut seen = 0;
-    for line in text.lines().filter(|l| l.starts_with("wildpoint ") || l.starts_with("cargo run --release -- ")) {
-        let line = line.trim_start_matches("cargo run --release -- ").trim_start_matches("wildpoint ");
-        let word = line.split_whitespace().next().unwrap_or_default();
-        if word.starts_with('-') || word.contains('.') {
-            continue;
+fn the_generated_parts_are_those_of_the_program() {
+    for (page, parts) in parts::all() {
+        let path = root().join("docs").join(page);
+        let new = parts.iter().fold(read(&path), |text, (name, part)| with_part(&text, name, part));
+        if std::env::var_os("WILDPOINT_UPDATE").is_some() {
+            std::fs::write(&path, &new).expect("the page can be written");
         }
-        assert!(known.contains(&word), "{line}: no such command");
-        seen += 1;
+        let now = read(&path);
+        let first = now.lines().zip(new.lines()).position(|(a, b)| a != b);
+        assert!(
+            now == new,
+            "docs/{page} is stale from line {first:?} on: run WILDPOINT_UPDATE=1 cargo test --test docs"
+        );
     }
-    assert!(seen >= 5, "the README shows the commands");
 }
 
-/// The pages that people read, by their paths in the repository.
-fn pages() -> Vec<PathBuf> {
-    let inside = std::fs::read_dir(root().join("docs")).expect("docs is there");
-    let pages = inside.map(|e| e.expect("an entry").path()).filter(|p| p.extension().is_some_and(|e| e == "md"));
-    pages.chain(["README.md", "CONTRIBUTING.md"].map(|name| root().join(name))).collect()
+/// Every part between markers is written by this test, but for the benchmarks, which `cargo bench` writes.
+#[test]
+fn no_generated_part_is_forgotten() {
+    let known = parts::all();
+    for page in book() {
+        let name = page.strip_prefix(root().join("docs")).expect("inside docs").to_string_lossy().into_owned();
+        for marker in read(&page).lines().filter_map(|l| l.strip_prefix("<!-- /")?.strip_suffix(" -->")) {
+            let made = known.iter().any(|(page, parts)| *page == name && parts.iter().any(|(part, _)| *part == marker));
+            assert!(made || marker == "benchmarks", "docs/{name}: nobody writes the part {marker}");
+        }
+    }
+}
+
+#[test]
+fn the_readme_is_short_and_counts_right() {
+    let text = read(&root().join("README.md"));
+    let lines = text.lines().count();
+    assert!(lines <= 110, "{lines} lines");
+    assert!(text.contains(&format!("All {} methods", METHODS.len())));
 }
 
 /// The targets of the links of a page, without those into the web.
@@ -115,24 +98,34 @@ fn links(text: &str) -> Vec<String> {
     targets.filter(|t| !t.contains("://") && !t.contains(' ')).map(str::to_owned).collect()
 }
 
-/// What stands between backticks and looks like a path of this repository.
+/// What is between backticks and looks like a path of this repository.
 fn paths(text: &str) -> Vec<String> {
     let quoted = text.split('`').skip(1).step_by(2);
-    let tops = ["src/", "crates/", "tests/", "docs/", "fuzz/", "benches/", "sessions/"];
+    let tops = ["src/", "crates/", "tests/", "docs/", "fuzz/", "benches/", "data/"];
     let literal = |p: &&str| tops.iter().any(|top| p.starts_with(top)) && !p.contains(['*', ' ']);
     let own = |p: &&str| !p.contains("your_method") && !p.contains("ID");
     quoted.filter(literal).filter(own).map(str::to_owned).collect()
+}
+
+/// The anchor that a heading has in a page.
+fn anchor(heading: &str) -> String {
+    let text = heading.trim_start_matches('#').trim().to_lowercase();
+    let kept = text.chars().filter(|c| c.is_alphanumeric() || [' ', '-', '_'].contains(c));
+    kept.map(|c| if c == ' ' { '-' } else { c }).collect()
 }
 
 #[test]
 fn the_pages_lead_to_what_is_there() {
     let mut seen = 0;
     for page in pages() {
-        let text = std::fs::read_to_string(&page).expect("a page");
+        let text = read(&page);
         let folder = page.parent().expect("a folder");
         for link in links(&text) {
-            let file = link.split('#').next().unwrap_or_default();
-            assert!(folder.join(file).exists(), "{}: {link} leads nowhere", page.display());
+            let (file, place) = link.split_once('#').unwrap_or((&link, ""));
+            let target = if file.is_empty() { page.clone() } else { folder.join(file) };
+            assert!(target.exists(), "{}: {link} leads nowhere", page.display());
+            let found = place.is_empty() || read(&target).lines().any(|l| l.starts_with('#') && anchor(l) == place);
+            assert!(found, "{}: {link}: no such heading", page.display());
             seen += 1;
         }
         for path in paths(&text) {
@@ -140,18 +133,31 @@ fn the_pages_lead_to_what_is_there() {
             seen += 1;
         }
     }
-    assert!(seen > 40, "links and paths are seen: {seen}");
-    let summary = std::fs::read_to_string(root().join("docs/SUMMARY.md")).expect("the summary");
-    for page in std::fs::read_dir(root().join("docs")).expect("docs is there") {
-        let name = page.expect("an entry").file_name().to_string_lossy().into_owned();
-        let listed = name == "SUMMARY.md" || !name.ends_with(".md") || links(&summary).contains(&name);
-        assert!(listed, "docs/SUMMARY.md does not list {name}");
+    assert!(seen > 100, "links and paths are seen: {seen}");
+}
+
+#[test]
+fn the_book_lists_every_page_and_help_shows_it() {
+    let summary = links(&read(&root().join("docs/SUMMARY.md")));
+    // Pages for developers, and the list of commands, which `help COMMAND` shows in parts.
+    let elsewhere =
+        ["index.md", "architecture.md", "testing.md", "benchmarks.md", "reference/commands.md", "reference/methods.md"];
+    for page in book() {
+        let name = page.strip_prefix(root().join("docs")).expect("inside docs").to_string_lossy().into_owned();
+        if name == "SUMMARY.md" {
+            continue;
+        }
+        assert!(summary.contains(&name), "docs/SUMMARY.md does not list {name}");
+        assert!(
+            elsewhere.contains(&&*name) != PAGES.iter().any(|p| p.file == name),
+            "{name}: in `help`, or elsewhere?"
+        );
     }
 }
 
 #[test]
 fn the_methods_page_has_every_method_and_parameter() {
-    let text = std::fs::read_to_string(root().join("docs/methods.md")).expect("the page");
+    let text = read(&root().join("docs/methods.md"));
     let quoted: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
     // `update = winsor` names the parameter `update`.
     let named = |key: &str| quoted.iter().any(|q| *q == key || q.split(" = ").next() == Some(key));

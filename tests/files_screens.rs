@@ -168,7 +168,7 @@ fn folders_are_entered_and_left_and_a_path_can_be_typed() {
     assert_eq!(bench.key(KeyCode::Enter), [Effect::Files(Task::List("/data/tracks/2026".into()))]);
     bench.news(News::Listed(Ok(listing())));
     bench.typed("../elsewhere/x.csv");
-    assert!(bench.frame().contains("nothing fits; Enter takes it as a path"));
+    assert!(bench.frame().contains("no match; Enter opens it as a path"));
     let effects = bench.key(KeyCode::Enter);
     assert_eq!(effects, [Effect::Files(Task::List("/data/tracks/../elsewhere/x.csv".into()))]);
     // It is a file: it is opened.
@@ -274,7 +274,10 @@ fn every_field_of_the_loader_can_be_reached_at_the_least_size() {
     bench.news(News::Seen { glance, result: Ok(seen(&told)), lines: Vec::new() });
     for field in wildpoint::tui::update::FIELDS {
         let frame = bench.frame();
-        assert!(frame.contains(&format!("> {}", field.name)) && frame.contains("Enter loads it so"), "{frame}");
+        assert!(
+            frame.contains(&format!("> {}", field.name)) && frame.contains("Enter: reload with these settings"),
+            "{frame}"
+        );
         bench.key(KeyCode::Down);
     }
     assert!(bench.frame().contains("> time column"));
@@ -338,7 +341,7 @@ fn a_changed_option_is_looked_at_and_taken_with_enter() {
 fn the_picker_corrects_how_its_choice_is_loaded() {
     let mut bench = picker(Glyphs::Unicode);
     bench.key(KeyCode::Tab);
-    assert!(bench.frame().contains("a session says itself how its record is loaded"), "{}", bench.frame());
+    assert!(bench.frame().contains("a session already says how its record is loaded"), "{}", bench.frame());
     bench.key(KeyCode::Down);
     let effects = bench.key(KeyCode::Tab);
     assert_eq!(effects, [Effect::Files(Task::Look(Glance::file(DEMO.into())))]);
@@ -372,7 +375,7 @@ fn outputs_are_chosen_named_and_written_together() {
         bench.typed("out/r.pdf");
         bench.key(KeyCode::Enter);
         assert!(bench.key(KeyCode::Enter).is_empty(), "there is no such report");
-        assert!(bench.frame().contains("does not say what the report is"), "{}", bench.frame());
+        assert!(bench.frame().contains("unknown report format"), "{}", bench.frame());
         bench.typed("e");
         (0..3).for_each(|_| drop(bench.key(KeyCode::Backspace)));
         bench.typed("md");

@@ -91,7 +91,7 @@ fn clean_scores_what_was_injected() {
     std::fs::write(dir.path().join("in.csv"), quirky()).expect("written");
     let inject = ["inject", "in.csv", "--seed", "2", "--patches", "3x2..4", "--amplitude", "20..40", "-o", "out.csv"];
     let told = printed(&inject, dir.path());
-    assert!(told.contains("3 patches") && told.contains("`alt, m_truth`"), "{told}");
+    assert!(told.contains("3 runs") && told.contains("`alt, m_truth`"), "{told}");
     let clean = ["clean", "out.csv", "--channel", "alt, m", "--reference", "alt, m_raw", "--set", "k=8", "--json"];
     let summary: Value = serde_json::from_str(&printed(&clean, dir.path())).expect("json");
     let channels = summary["channels"].as_array().expect("channels");

@@ -11,7 +11,7 @@ const CRATES: &[&str] = &["crates/core/src", "crates/record/src", "src"];
 /// The layers, lowest first; modules of one line may know each other.
 const LAYERS: &[&[&str]] = &[
     &["memory"],
-    &["error", "wrapped"],
+    &["error", "wrapped", "counted"],
     &["math"],
     &["interval"],
     &["series"],
@@ -37,7 +37,7 @@ const LAYERS: &[&[&str]] = &[
     &["job"],
     &["plot"],
     &["report"],
-    &["cli", "batch", "stream"],
+    &["cli", "batch", "manual", "stream"],
 ];
 
 /// The other front: above all layers but the last, which is its sibling.

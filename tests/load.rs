@@ -203,7 +203,7 @@ fn truth_and_chosen_columns() {
     assert_eq!(load_with("two_truths.csv", &sample).unwrap().channels.len(), 3);
     let words = LoadOptions { channels: vec!["state".into()], ..LoadOptions::default() };
     let e = load_with("tabs_units_row.tsv", &words).unwrap_err().to_string();
-    assert!(e.contains("`state` is no channel of numbers: it holds `up`"), "{e}");
+    assert!(e.contains("`state` is not numeric: it holds `up`"), "{e}");
 }
 
 #[test]

@@ -155,9 +155,9 @@ fn nothing_is_overwritten_without_being_told_to() {
     let (folder, mut terminal) = workbench(COMPACT);
     std::fs::write(folder.path("there.toml"), "kept").unwrap();
     terminal.keys(":w there.toml\r");
-    terminal.wait_for("there.toml is there already");
+    terminal.wait_for("there.toml already exists");
     terminal.keys("\x1b");
-    terminal.wait_until("no question", |screen| !screen.contents().contains("is there already"));
+    terminal.wait_until("no question", |screen| !screen.contents().contains("already exists"));
     terminal.keys(":export demo.csv\r");
     terminal.wait_for("demo.csv: this is the input");
     assert_eq!(folder.text("there.toml"), "kept");
@@ -203,7 +203,7 @@ fn quitting_asks_when_something_is_unsaved_and_gives_the_terminal_back() {
     terminal.keys("\x1b");
     terminal.wait_until("the panels", |screen| !screen.contents().contains("not saved"));
     terminal.keys("q");
-    terminal.wait_for("drop them and quit");
+    terminal.wait_for("discard them and quit");
     terminal.keys("d");
     let (status, raw) = terminal.end();
     assert_eq!(status, 0);
@@ -278,9 +278,7 @@ fn a_torn_arrow_key_is_one_key() {
         terminal.keys("[D");
         // On a busy machine the rest may come so late that it is no rest: that attempt does not count.
         let at_once = between.elapsed().as_millis() < 10;
-        terminal.wait_until("an effect", |screen| {
-            shown("this is the end of the record")(screen) || shown("filter:")(screen)
-        });
+        terminal.wait_until("an effect", |screen| shown("end of the record")(screen) || shown("filter:")(screen));
         if at_once {
             terminal.look(|screen| assert!(!shown("filter:")(screen), "three keys:\n{}", screen.contents()));
             torn += 1;
@@ -291,7 +289,7 @@ fn a_torn_arrow_key_is_one_key() {
         }
         // Giving the focus to the trace, which has it, takes the words away.
         terminal.keys("1");
-        terminal.wait_until("no words", |screen| !shown("this is the end of the record")(screen));
+        terminal.wait_until("no words", |screen| !shown("end of the record")(screen));
     }
     terminal.look(|screen| assert!(!title(screen).contains("[+]")));
 }

@@ -203,7 +203,7 @@ fn settings_without_a_result_show_none() {
 fn every_key_after_g_that_decides_is_in_the_footer_at_80_columns() {
     let frame = Bench::on("demo.csv", UNICODE_DARK).keys("g").frame();
     let footer = frame.lines().last().unwrap_or_default();
-    for words in ["ga accept all", "gr reject all", "gx take back all", "gn next suspect"] {
+    for words in ["ga accept all", "gr reject all", "gx clear all", "gn next suspect"] {
         assert!(footer.contains(words), "{words} is not in: {footer}");
     }
 }

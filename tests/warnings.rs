@@ -77,7 +77,7 @@ fn predictors_warn_of_runs_that_are_taken_for_changes_and_of_first_samples() {
         assert!(said("adaptive", &[("k", k), ("huber_c", "1.5")]).contains("about one good sample in ten"), "{k}");
     }
     assert_eq!(said("adaptive", &[("k", "1.6"), ("huber_c", "1.5")]), "");
-    assert!(said("matched", &[("window", "10")]).contains("patches of two or more"));
+    assert!(said("matched", &[("window", "10")]).contains("runs of two or more"));
     assert_eq!(said("matched", &[("window", "11")]), "");
 }
 

@@ -4,19 +4,21 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::advise;
+use super::progress::Progress;
 use super::set;
 use super::suggest;
 use super::targets::{Target, file_name, targets};
 use super::{Ending, set_threads, tell};
 use crate::cli::{OutputArgs, Shared};
 use crate::error::{Error, Result};
-use crate::report::{Summary, diagnostics, flags, report};
+use crate::report::written::{self, Written};
+use crate::report::{Byline, Summary, diagnostics, flags, report};
 use crate::session::{
     Analysed, FlagColumn, Plan, Session, Setup, changed, clean_sha256, document, flag_columns, write_cleaned,
     write_flagged, write_flagged_columns,
 };
 use crate::stop::Stop;
-use crate::track::{Outputs, Source, Track, is_columns_name, load, printable, write_columns};
+use crate::track::{Changes, Outputs, Source, Track, is_columns_name, load, printable, write_columns};
 
 pub(super) fn run(
     files: &[PathBuf],
@@ -35,7 +37,10 @@ pub(super) fn run(
     let work = |file: &Path, target: &Target| one(file, (shared, suggested), &setup, (target, &all));
     let targets = targets(files, outputs, save_session, file_name)?;
     if let ([file], [target]) = (files, targets.as_slice()) {
-        return tell(outputs, &work(file, target)?, out);
+        let progress = Progress::new(1, outputs.quiet || outputs.json);
+        let done = work(file, target);
+        drop(progress);
+        return tell(outputs, &done?, out);
     }
     let jobs: Vec<(&PathBuf, Target)> = files.iter().zip(targets).collect();
     let quiet = outputs.quiet || outputs.json;
@@ -70,12 +75,17 @@ fn one(
     if let Some(reference) = &shared.reference {
         summary.compare_with(&track, &analysed, reference)?;
     }
-    target.make_folders()?;
-    let mut files = Outputs::new(outputs.force, inputs).or_standard_output();
+    if !outputs.dry_run {
+        target.make_folders()?;
+    }
+    let mut files = Outputs::new(outputs.force, inputs).or_standard_output().dry(outputs.dry_run);
     stage(&mut files, outputs, &track, &session, &analysed, &mut summary)?;
     if let Some(path) = &target.session {
         let text = suggest::noted(&document(&mut session, &track, &analysed, path)?, &notes);
         files.stage(path, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", path)))?;
+    }
+    if let Some(told) = &mut summary.written {
+        told.note(written::SESSION, target.session.as_deref(), None);
     }
     files.commit()?;
     Ok(summary)
@@ -102,44 +112,65 @@ pub(super) fn stage(
     analysed: &Analysed,
     summary: &mut Summary,
 ) -> Result<()> {
-    if let Some(path) = &outputs.output {
-        let changes = analysed.changes(track);
-        let flags = outputs.flag_columns.map(|scheme| (scheme, flag_columns(track, analysed)));
-        let columns = is_columns_name(path, track);
-        if let Some((_, flags)) = flags.as_ref().filter(|_| !columns) {
-            summary.notes.extend(nameless(track, flags));
-        }
-        let mut text = None;
-        let write = |w: &mut dyn Write| match (&flags, columns) {
-            (None, true) => write_columns(track, &changes, None, w),
-            (Some((scheme, flags)), true) => write_flagged_columns(track, (&changes, flags), scheme, w),
-            (None, false) => write_cleaned(track, &changes, w).map(|sha256| text = Some(sha256)),
-            (Some((scheme, flags)), false) => {
-                write_flagged(track, (&changes, flags), scheme, w).map(|sha256| text = Some(sha256))
-            }
-        };
-        if columns {
-            files.stage_columns(path, write)?
-        } else {
-            files.stage(path, write)?
-        }
-        // Of the table as text, whatever form it has.
-        summary.clean_sha256 = Some(match text {
-            Some(sha256) => sha256,
-            None => clean_sha256(track, &changes)?,
-        });
+    let mut told = Written { dry: outputs.dry_run, ..Written::default() };
+    let changes = outputs.output.as_ref().map(|_| analysed.changes(track));
+    let changed_cells = changes.as_ref().map(|changes| changes.cells.len());
+    told.note(written::CLEANED, outputs.output.as_deref(), changed_cells);
+    if let (Some(path), Some(changes)) = (&outputs.output, &changes) {
+        stage_cleaned(files, (path, outputs), track, (analysed, changes), summary)?;
     }
+    told.note(written::CHANGES, outputs.changed.as_deref(), None);
     if let Some(path) = &outputs.changed {
         files.stage(path, |w| changed(track, session, analysed, w))?;
     }
+    told.note(written::FLAGS, outputs.flags.as_deref(), None);
     if let Some(path) = &outputs.flags {
         files.stage(path, |w| flags(track, session, analysed, w))?;
     }
+    told.note(written::DIAGNOSTICS, outputs.diagnostics.as_deref(), None);
     if let Some(path) = &outputs.diagnostics {
         files.stage(path, |w| diagnostics(track, session, analysed, w))?;
     }
+    told.note(written::REPORT, outputs.report.as_deref(), None);
     if let Some(path) = &outputs.report {
-        files.stage(path, |w| report(track, session, analysed, path, w))?;
+        let byline = Byline::today(outputs.analyst.clone()).beside(path, outputs.flags.as_deref());
+        files.stage(path, |w| report(track, session, analysed, (&byline, path), w))?;
     }
+    summary.written = Some(told);
+    Ok(())
+}
+
+/// Prepares the cleaned record.
+fn stage_cleaned(
+    files: &mut Outputs,
+    (path, outputs): (&Path, &OutputArgs),
+    track: &Track,
+    (analysed, changes): (&Analysed, &Changes),
+    summary: &mut Summary,
+) -> Result<()> {
+    let flags = outputs.flag_columns.map(|scheme| (scheme, flag_columns(track, analysed)));
+    let columns = is_columns_name(path, track);
+    if let Some((_, flags)) = flags.as_ref().filter(|_| !columns) {
+        summary.notes.extend(nameless(track, flags));
+    }
+    let mut text = None;
+    let write = |w: &mut dyn Write| match (&flags, columns) {
+        (None, true) => write_columns(track, changes, None, w),
+        (Some((scheme, flags)), true) => write_flagged_columns(track, (changes, flags), scheme, w),
+        (None, false) => write_cleaned(track, changes, w).map(|sha256| text = Some(sha256)),
+        (Some((scheme, flags)), false) => {
+            write_flagged(track, (changes, flags), scheme, w).map(|sha256| text = Some(sha256))
+        }
+    };
+    if columns {
+        files.stage_columns(path, write)?
+    } else {
+        files.stage(path, write)?
+    }
+    // Of the table as text, whatever form it has.
+    summary.clean_sha256 = Some(match text {
+        Some(sha256) => sha256,
+        None => clean_sha256(track, changes)?,
+    });
     Ok(())
 }

@@ -21,7 +21,10 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
     set_threads(args.threads)?;
     let writes = [&args.outputs.output, &args.outputs.flags, &args.outputs.diagnostics];
     if args.votes.is_none() && writes.iter().any(|w| w.is_some()) {
-        return Err(Error::usage("there is no consensus to write", "say with --votes K how many methods must agree"));
+        return Err(Error::usage(
+            "no consensus to write without --votes",
+            "--votes K sets how many methods must agree",
+        ));
     }
     let (setups, skipped) = setups(args)?;
     if let Some(votes) = args.votes

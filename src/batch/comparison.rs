@@ -92,9 +92,9 @@ impl Told {
     /// The tables for people; `note` follows the name of the channel.
     pub(super) fn text(&self, note: &str) -> String {
         let mut out = format!("{}: {} samples{note}\n\n", printable(&self.channel), self.samples);
-        let mut header = row(["method", "flagged", "isolated", "patches", "suspects", "unchecked", "ms"]);
+        let mut header = row(["method", "flagged", "isolated", "runs", "suspects", "unchecked", "ms"]);
         if self.methods.iter().any(|m| m.score.is_some()) {
-            header.extend(row(["missed", "false", "recall %", "precision %"]));
+            header.extend(row(["missed", "false alarms", "recall %", "precision %"]));
         }
         let mut rows = vec![header];
         rows.extend(self.methods.iter().chain(&self.consensus).map(Row::cells));

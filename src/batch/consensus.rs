@@ -24,7 +24,7 @@ struct Consensus;
 
 const VOTES: Param = Param {
     key: "votes",
-    help: "a sample is an outlier when at least so many methods flag it",
+    help: "a sample is an outlier when at least this many methods flag it",
     unit: "methods",
     kind: Kind::Whole { min: 1, max: 1000, step: 1 },
     default: Value::Whole(1),
@@ -39,7 +39,7 @@ static ABOUT: About = About {
     name: "consensus of several methods",
     family: "consensus",
     source: "beyond",
-    advice: "What at least so many methods agree on.",
+    advice: "The samples that at least this many methods flag.",
     params: PARAMS,
     own: Own::Remove,
     needs_rate: false,
@@ -87,7 +87,7 @@ pub(super) fn written(
     let analysed = Analysed { channels: vec![(index, samples.clone(), outcome)] };
     let mut summary = Summary::of(track, &session, &analysed);
     let inputs: Vec<&Path> = track.source.path().into_iter().collect();
-    let mut files = Outputs::new(args.outputs.force, &inputs).or_standard_output();
+    let mut files = Outputs::new(args.outputs.force, &inputs).or_standard_output().dry(args.outputs.dry_run);
     clean::stage(&mut files, &args.outputs, track, &session, &analysed, &mut summary)?;
     files.commit()?;
     Ok(row)

@@ -80,7 +80,7 @@ pub(super) fn run(args: &InjectArgs, out: &mut dyn Write) -> Result<Ending> {
 impl Injected<'_> {
     fn text(&self, two_truths: bool) -> String {
         let mut text = format!(
-            "{}: {} wild samples put in ({} isolated, {} patches) and {} steps; noise scale {}\n  raw values in `{}`, \
+            "{}: {} outliers added ({} isolated, {} runs) and {} steps; noise scale {}\n  raw values in `{}`, \
              truth in `{}`\n",
             printable(self.channel),
             self.wild,
@@ -101,7 +101,7 @@ impl Injected<'_> {
 /// The one channel that was named, or the first.
 fn channel_of(track: &Track) -> Result<&Channel> {
     track.channels.first().ok_or_else(|| {
-        Error::usage("the record has no channel to inject into", "name a column of numbers with --channel")
+        Error::usage("the record has no channel to add outliers to", "name a column of numbers with --channel")
     })
 }
 

@@ -40,15 +40,29 @@ pub(super) fn run(id: Option<&str>, json: bool, as_markdown: bool, out: &mut dyn
     if as_markdown {
         return print(out, &markdown());
     }
-    if let (Some(check), false) = (id.and_then(check_of_id), json) {
-        return print(out, &check_page(check));
-    }
     match (id, json) {
         (Some(id), true) => print_json(out, &listed(method_of_id(id)?)),
-        (Some(id), false) => print(out, &page(method_of_id(id)?)),
+        (Some(id), false) => print(out, &explained(id)?),
         (None, true) => print_json(out, &METHODS.iter().map(|m| listed(*m)).collect::<Vec<_>>()),
         (None, false) => print(out, &list()),
     }
+}
+
+/// The page about a method or a check.
+///
+/// # Errors
+/// [`crate::error::Error::Usage`] for an unknown id.
+pub fn explained(id: &str) -> Result<String> {
+    Ok(match check_of_id(id) {
+        Some(check) => check_page(check),
+        None => page(method_of_id(id)?),
+    })
+}
+
+/// Whether a method or a check has this id.
+#[must_use]
+pub fn is_explained(id: &str) -> bool {
+    check_of_id(id).is_some() || METHODS.iter().any(|method| method.about().id == id)
 }
 
 fn listed(method: &dyn Method) -> Listed {

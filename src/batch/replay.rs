@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use super::progress::Progress;
 use super::set;
 use super::targets::{Target, file_name, targets};
 use super::{Ending, clean, print, tell};
@@ -27,7 +28,10 @@ pub(super) fn run_all(
     let inputs: Vec<&Path> = sessions.iter().chain(&records).map(PathBuf::as_path).collect();
     let talks = !outputs.quiet && !outputs.json && !outputs.takes_standard_output();
     if let ([session], [target]) = (sessions, targets.as_slice()) {
-        let (summary, notes) = run(session, accepted, (target, &inputs))?;
+        let progress = Progress::new(1, !talks);
+        let done = run(session, accepted, (target, &inputs));
+        drop(progress);
+        let (summary, notes) = done?;
         if talks {
             tell_notes(session, &notes, out)?;
         } else if outputs.takes_standard_output() && !outputs.quiet {
@@ -75,8 +79,10 @@ fn run(path: &Path, accepted: Accepted, (target, inputs): (&Target, &[&Path])) -
     let opened = open(path, accepted)?;
     let analysed = Analysed::of(&opened.session, &opened.track, &Stop::never())?;
     let mut summary = Summary::of(&opened.track, &opened.session, &analysed);
-    target.make_folders()?;
-    let mut files = Outputs::new(outputs.force, inputs).or_standard_output();
+    if !outputs.dry_run {
+        target.make_folders()?;
+    }
+    let mut files = Outputs::new(outputs.force, inputs).or_standard_output().dry(outputs.dry_run);
     clean::stage(&mut files, outputs, &opened.track, &opened.session, &analysed, &mut summary)?;
     files.commit()?;
     let mut notes: Vec<String> = opened.appended.map(Grown::words).into_iter().collect();

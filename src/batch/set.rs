@@ -1,11 +1,12 @@
 //! Many inputs at once: they share the cores, and one that fails does not stop the others.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde::Serialize;
 
+use super::progress::Progress;
 use super::table::{columns, row};
 use super::{Ending, print, print_json};
 use crate::cli::OutputArgs;
@@ -16,8 +17,8 @@ use crate::track::{printable, printable_lines};
 /// Does `work` for each of `items`, as many at a time as there are threads; results in the order of the items. Where
 /// standard error is a terminal it shows how far it is, unless `quiet`.
 pub(super) fn for_all<T: Sync, R: Send>(items: &[T], quiet: bool, work: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let progress = Progress { shown: !quiet && items.len() > 1 && std::io::stderr().is_terminal(), of: items.len() };
+    let next = AtomicUsize::new(0);
+    let progress = Progress::new(items.len(), quiet);
     let one_after_the_other = || {
         let mut results = Vec::new();
         // Threads of their own, not tasks of the pool: a task that waits for its parts would take up another file
@@ -26,42 +27,19 @@ pub(super) fn for_all<T: Sync, R: Send>(items: &[T], quiet: bool, work: impl Fn(
             Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|at| Some((at, items.get(at)?)))
         {
             results.push((at, work(item)));
-            progress.show(done.fetch_add(1, Ordering::Relaxed) + 1);
+            progress.done();
         }
         results
     };
-    progress.show(0);
     let workers = rayon::current_num_threads().min(items.len());
     let mut results: Vec<(usize, R)> = std::thread::scope(|scope| {
         let threads: Vec<_> = (0..workers).map(|_| scope.spawn(one_after_the_other)).collect();
         let joined = threads.into_iter().map(|t| t.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
         joined.flatten().collect()
     });
-    progress.clear();
+    drop(progress);
     results.sort_by_key(|r| r.0);
     results.into_iter().map(|r| r.1).collect()
-}
-
-/// A line on the terminal that says how far the work is.
-struct Progress {
-    shown: bool,
-    of: usize,
-}
-
-impl Progress {
-    fn show(&self, done: usize) {
-        if self.shown {
-            let filled = 30 * done / self.of.max(1);
-            let bar = format!("{}{}", "#".repeat(filled), ".".repeat(30 - filled));
-            let _ = write!(std::io::stderr(), "\r[{bar}] {done} of {}", self.of);
-        }
-    }
-
-    fn clear(&self) {
-        if self.shown {
-            let _ = write!(std::io::stderr(), "\r\x1b[K");
-        }
-    }
 }
 
 /// One input of several.
@@ -113,7 +91,7 @@ pub(super) fn tell_errors<T>(inputs: &[PathBuf], results: &[Result<T>]) {
 }
 
 const HEADER: [&str; 10] =
-    ["file", "rows", "channels", "flagged", "isolated", "patches", "repaired", "removed", "suspects", "unchecked"];
+    ["file", "rows", "channels", "flagged", "isolated", "runs", "repaired", "removed", "suspects", "unchecked"];
 
 fn text(inputs: &[PathBuf], results: &[Result<Summary>]) -> String {
     let mut rows = vec![row(HEADER)];

@@ -5,6 +5,7 @@ use std::io::Write;
 
 use serde::Serialize;
 
+use super::progress::Progress;
 use super::table::{columns, row};
 use super::{Ending, one_channel, print, print_json, set_threads};
 use crate::cli::SweepArgs;
@@ -37,7 +38,9 @@ pub(super) fn run(args: &SweepArgs, out: &mut dyn Write) -> Result<Ending> {
     let channel = &track.channels[index];
     let samples = Samples::of(channel, &track.time);
     let setup = setup.prepared(&args.judge.prepare.of(&track, channel, args.judge.preset)?);
+    let progress = Progress::new(1, args.json);
     let swept = sweep(&track, channel, &samples, &setup, (param, &values), &Stop::never())?;
+    drop(progress);
     let method = setup.method.about().id;
     if args.json {
         let file = args.file.display().to_string();
@@ -62,7 +65,7 @@ fn table(sweep: &Sweep) -> String {
     let scored = sweep.points.iter().any(|p| p.missed.is_some());
     let mut header = row([sweep.key, "flagged"]);
     if scored {
-        header.extend(row(["missed", "false"]));
+        header.extend(row(["missed", "false alarms"]));
     }
     let mut rows = vec![header];
     let most = sweep.points.iter().map(|p| p.flagged).max().unwrap_or(0);
@@ -148,6 +151,6 @@ mod tests {
     fn the_advice_is_a_command_or_says_why_there_is_none() {
         assert!(advice(&swept(&[90, 7, 7, 0]), "hampel").contains("--method hampel --set k=2 (7 flagged)"));
         assert!(advice(&swept(&[90, 40, 10, 0]), "hampel").contains("no clear gap"));
-        assert!(advice(&swept(&[0, 0, 0]), "hampel").contains("nothing is flagged at the default and above"));
+        assert!(advice(&swept(&[0, 0, 0]), "hampel").contains("nothing is flagged at the default or above"));
     }
 }

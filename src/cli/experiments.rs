@@ -21,7 +21,7 @@ pub struct SimulateArgs {
     /// Seed of the random numbers [default: the experiment's own].
     #[arg(long)]
     pub seed: Option<u64>,
-    /// Write so many runs, with the seeds S, S+1, ...: one after the other in time with a gap between (so that methods
+    /// Write this many runs, with the seeds S, S+1, ...: one after the other in time with a gap between (so that methods
     /// cut there), told apart by a column `run`.
     #[arg(long, value_name = "N", default_value = "1", value_parser = runs)]
     pub runs: usize,
@@ -56,12 +56,12 @@ pub struct ReproduceArgs {
     pub json: bool,
 }
 
-/// Add known wild points to a record, so that methods can be compared on it.
+/// Add known outliers to a record, to compare methods on it.
 ///
 /// The channel (the first, or the one named with --channel) gets wild points at random places; everything else stays
 /// byte for byte. Two columns are added at the right: CHANNEL_raw, the channel as it was, and CHANNEL_truth, in which 1
-/// marks a wild point (and what a truth column of the record marked before). Sizes count in noise scales
-/// of the channel, measured from third differences. Then: wildpoint clean OUT --channel CHANNEL --reference
+/// marks a wild point (and what a truth column of the record marked before). Sizes are in sigma
+/// of the channel's noise, measured from third differences. Then: wildpoint clean OUT --channel CHANNEL --reference
 /// CHANNEL_raw tells how many a method finds and how close its repair comes (steps are in no CHANNEL_raw).
 #[derive(Debug, Clone, Args)]
 pub struct InjectArgs {
@@ -73,17 +73,17 @@ pub struct InjectArgs {
     /// Seed of the random numbers: the same seed puts in the same points.
     #[arg(long, default_value = "1")]
     pub seed: u64,
-    /// Wild points that stand alone: a number, or a part of the samples.
+    /// Isolated outliers: a number, or a share of the samples.
     #[arg(long, value_name = "N|N%", default_value = "1%")]
     pub isolated: Amount,
-    /// Wild points in patches of neighbours with about the same error: how many, of how many samples.
-    #[arg(long, value_name = "NxLOW..HIGH")]
-    pub patches: Option<Patches>,
-    /// A lasting change of the level, up or down, at a random place or so many seconds after the start; repeatable. It
+    /// Runs of adjacent outliers with about the same error: how many runs, and their lengths.
+    #[arg(long, alias = "patches", value_name = "NxLOW..HIGH")]
+    pub runs: Option<Patches>,
+    /// A lasting change of the level, up or down, at a random place or at a number of seconds after the start; repeatable. It
     /// is real: truth does not mark it, and a method that flags it raises a false alarm.
     #[arg(long, value_name = "SIZE[@SECONDS]", allow_hyphen_values = true)]
     pub step: Vec<Step>,
-    /// Sizes of the wild points, either way, in noise scales.
+    /// Sizes of the outliers, up or down, in sigma of the noise.
     #[arg(long, value_name = "LOW..HIGH", default_value = "5..20")]
     pub amplitude: Span,
     /// The noise scale in the channel's units [default: measured].
@@ -107,7 +107,7 @@ impl InjectArgs {
         Plan {
             seed: self.seed,
             isolated: self.isolated,
-            patches: self.patches.unwrap_or_default(),
+            patches: self.runs.unwrap_or_default(),
             steps: self.step.clone(),
             amplitude: self.amplitude,
             sigma: self.sigma,
@@ -116,9 +116,9 @@ impl InjectArgs {
 }
 
 fn scale(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0).ok_or_else(|| "a number above 0 is wanted".to_owned())
+    text.parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
 }
 
 fn runs(text: &str) -> Result<usize, String> {
-    text.parse().ok().filter(|n| (1..=100_000).contains(n)).ok_or_else(|| "1 to 100000 runs can be made".to_owned())
+    text.parse().ok().filter(|n| (1..=100_000).contains(n)).ok_or_else(|| "expected 1 to 100000 runs".to_owned())
 }

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::PresetArg;
 use crate::check::parse_all;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, one_of};
 use crate::session::{Preparation, Session, parse_period, position_check, suggested};
 use crate::track::{Channel, Track};
 
@@ -78,5 +78,5 @@ impl PrepareArgs {
 
 fn no_such(track: &Track, name: &str, option: &str) -> Error {
     let names: Vec<&str> = track.channels.iter().map(|c| c.name.as_str()).collect();
-    Error::usage(format!("{option} {name}: there is no such channel"), format!("channels: {}", names.join(", ")))
+    Error::usage(format!("{option} {name}: there is no such channel"), one_of("channels", name, &names))
 }

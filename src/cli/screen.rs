@@ -11,7 +11,7 @@ pub struct ConfigArgs {
     /// ~/.config].
     #[arg(long, value_name = "FILE", conflicts_with = "no_config")]
     pub config: Option<PathBuf>,
-    /// Take no configuration.
+    /// Ignore the configuration file.
     #[arg(long)]
     pub no_config: bool,
 }

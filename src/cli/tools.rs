@@ -64,10 +64,10 @@ pub struct JudgeArgs {
     /// Method (see `wildpoint methods`).
     #[arg(long, value_name = "ID", default_value = DEFAULT_METHOD)]
     pub method: String,
-    /// Channel that measures the rate of the judged one, for methods that need one.
+    /// Channel with the rate of change of the judged one, for methods that need it.
     #[arg(long, value_name = "COLUMN")]
     pub rate: Option<String>,
-    /// Values to start from: those that work on real tracks, or those of the source documents.
+    /// Parameter values to start from: those that work on real tracks, or those of the source documents.
     #[arg(long, value_enum, default_value_t = PresetArg::Default)]
     pub preset: PresetArg,
     /// A parameter of the method; repeatable (see `wildpoint methods ID`).
@@ -84,10 +84,10 @@ pub struct JudgeArgs {
 /// The help of `compare`.
 pub(super) const COMPARE: &str = "\
      Run every applicable method on one channel and put the results side by side.\n\n\
-     The table has a row for each method: what it flags (isolated, in patches), its suspects, the samples it \
+     The table has a row for each method: what it flags (isolated, in runs), its suspects, the samples it \
      could not check, the time it took on one core, and, with a truth column, how much of the truth it found. \
-     Below stands the agreement: how many samples are flagged by so many of the methods. Methods that need a \
-     rate channel take part with --rate.\n\n\
+     Below it is the agreement: how many samples are flagged by how many methods. Methods that need a rate \
+     channel take part with --rate.\n\n\
      With --votes K a sample is an outlier when at least K of the methods flag it; -o, --flags and \
      --diagnostics write that consensus, repaired by --repair.\n\n\
      Without --channel the first channel is taken, and named.";
@@ -100,13 +100,13 @@ pub struct CompareArgs {
     /// How to load it [default channel: the first].
     #[command(flatten)]
     pub load: Load,
-    /// Channel that measures the rate of the judged one.
+    /// Channel with the rate of change of the judged one.
     #[arg(long, value_name = "COLUMN")]
     pub rate: Option<String>,
     /// Only this method; repeatable [default: all].
     #[arg(long, value_name = "ID")]
     pub method: Vec<String>,
-    /// Values to start from: those that work on real tracks, or those of the source documents.
+    /// Parameter values to start from: those that work on real tracks, or those of the source documents.
     #[arg(long, value_enum, default_value_t = PresetArg::Default)]
     pub preset: PresetArg,
     /// A parameter of one method, or (without ID.) of all methods that have it; repeatable.
@@ -118,7 +118,7 @@ pub struct CompareArgs {
     /// What is done with the channel before any of the methods sees it.
     #[command(flatten)]
     pub prepare: PrepareArgs,
-    /// A sample is an outlier when at least so many methods flag it.
+    /// A sample is an outlier when at least this many methods flag it.
     #[arg(long, value_name = "K")]
     pub votes: Option<usize>,
     /// What takes the place of an outlier of the consensus: linear, remove, spline, polynomial [default: linear].
@@ -141,7 +141,7 @@ pub(super) const STREAM: &str = "\
      One line goes out for every sample line that comes in, at once: row, time, value, verdict, expected value \
      and tolerance. Methods: five-point, alpha-beta-gamma, adaptive, template, kalman (without infill), \
      two-sided (forward only). What needs the future or the whole record is off: look_back, the pooled noise \
-     floor, the second direction, the fill of patches; `sigma`, the noise scale, must be a number (the \
+     floor, the second direction, the fill of runs; `sigma`, the noise scale, must be a number (the \
      precision of the instrument; `wildpoint inspect` measures it on a record), except for template; `floor` \
      is 0 unless it is a number.\n\n\
      A sample that waits for a model to start is `unchecked` at first. When a start group is complete, and \
@@ -163,7 +163,7 @@ pub struct StreamArgs {
     /// Take method, settings and channel from a saved session.
     #[arg(long, value_name = "SESSION", conflicts_with_all = ["method", "preset"])]
     pub session: Option<PathBuf>,
-    /// Values to start from: those that work on real tracks, or those of the source documents.
+    /// Parameter values to start from: those that work on real tracks, or those of the source documents.
     #[arg(long, value_enum, default_value_t = PresetArg::Default)]
     pub preset: PresetArg,
     /// A parameter of the method; repeatable (see `wildpoint methods ID`).

@@ -4,12 +4,21 @@ use std::io::Write;
 
 use crate::error::{Error, Result};
 use crate::method::Verdict;
-use crate::session::table::{cell, time_text, verdict_word, walk, write_row};
+use crate::session::table::{Column, cell, column, names, time_text, verdict_word, walk, write_row};
 use crate::session::{Analysed, Session};
 use crate::track::{Track, escape_formula};
 
 /// The columns, in order.
-const HEADER: [&str; 8] = ["row", "time", "channel", "raw", "verdict", "expected", "tolerance", "clean"];
+pub const DIAGNOSTIC_COLUMNS: [Column; 8] = [
+    column("row", "number of the data row, from 1"),
+    column("time", "time of the row, as in the record"),
+    column("channel", "name of the channel"),
+    column("raw", "measured value"),
+    column("verdict", "verdict in effect: `normal`, `outlier`, `suspect`, `unchecked` or `missing`"),
+    column("expected", "value that the method expects"),
+    column("tolerance", "distance from the expected value at which a sample is flagged"),
+    column("clean", "value in the cleaned file"),
+];
 
 /// Writes the diagnostics table as CSV.
 ///
@@ -17,7 +26,7 @@ const HEADER: [&str; 8] = ["row", "time", "channel", "raw", "verdict", "expected
 /// When the input cannot be read again, or the table cannot be written.
 pub fn diagnostics(track: &Track, session: &Session, analysed: &Analysed, out: &mut dyn Write) -> Result<()> {
     let mut writer = csv::Writer::from_writer(out);
-    write_row(&mut writer, &HEADER)?;
+    write_row(&mut writer, &names(&DIAGNOSTIC_COLUMNS))?;
     walk(track, session, analysed, |row, cells, channel| {
         let position = channel.position(row);
         let judged = &channel.outcome.detection.judged;

@@ -36,7 +36,8 @@ pub(super) fn html(page: &Page) -> String {
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>wildpoint: {title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
-         <h1>{title}</h1>\n<p class=\"outcome\">{}</p>\n",
+         <h1>{title}</h1>\n<p class=\"byline\">{}</p>\n<p class=\"outcome\">{}</p>\n",
+        escaped(&page.byline),
         escaped(&page.outcome)
     );
     out.push_str("<dl class=\"facts\">\n");
@@ -50,21 +51,21 @@ pub(super) fn html(page: &Page) -> String {
     for section in &page.channels {
         channel(section, &mut out);
     }
-    out.push_str("<h2>The same result again</h2>\n");
+    references(&page.references, &mut out);
+    out.push_str("<h2>How to reproduce</h2>\n");
     let _ = writeln!(out, "<pre class=\"command\">{}</pre>", escaped(&page.command));
     let _ = writeln!(out, "<p>{}</p>", escaped(&page.command_note));
     match &page.session {
         Some(session) => {
-            out.push_str("<details><summary>The session file</summary>\n<pre>");
+            // Open, so that it is printed too.
+            out.push_str("<details open><summary>The session file</summary>\n<pre>");
             // Line by line: the ends of lines are to stay what they are.
             session.lines().for_each(|line| {
                 let _ = writeln!(out, "{}", escaped(line));
             });
             out.push_str("</pre></details>\n");
         }
-        None => {
-            out.push_str("<p>The session is too long to be repeated here; it can be saved beside this report.</p>\n")
-        }
+        None => out.push_str("<p>The session is too long to be repeated here; save it beside this report.</p>\n"),
     }
     out.push_str("</main>\n</body>\n</html>\n");
     out
@@ -81,8 +82,24 @@ fn notes(notes: &[String], out: &mut String) {
     out.push_str("</ul>\n");
 }
 
+fn references(references: &[(String, String)], out: &mut String) {
+    if references.is_empty() {
+        return;
+    }
+    out.push_str("<h2>References</h2>\n<dl class=\"facts\">\n");
+    for (cited, document) in references {
+        let _ = writeln!(out, "<dt>{}</dt><dd>{}</dd>", escaped(cited), escaped(document));
+    }
+    out.push_str("</dl>\n");
+}
+
 fn channel(section: &Section, out: &mut String) {
-    let _ = writeln!(out, "<section>\n<h2>{}</h2>\n<p>{}</p>", escaped(&section.title), escaped(&section.method));
+    let (title, method) = (escaped(&section.title), escaped(&section.method));
+    let _ = writeln!(
+        out,
+        "<section>\n<h2>{title}</h2>\n<p>{method}</p>\n<p class=\"advice\">{}</p>",
+        escaped(&section.advice)
+    );
     out.push_str("<ul class=\"counts\">");
     for (what, count) in &section.counts {
         let _ = write!(out, "<li><b>{}</b> {}</li>", escaped(count), escaped(what));
@@ -94,7 +111,8 @@ fn channel(section: &Section, out: &mut String) {
     table(&section.settings, out);
     out.push_str("<h3>Flags and decisions</h3>\n");
     if !section.listed.is_empty() {
-        let _ = writeln!(out, "<p>{}</p>", escaped(&section.listed));
+        let link = section.beside.as_ref().map_or(String::new(), |file| linked(file));
+        let _ = writeln!(out, "<p>{}{link}</p>", escaped(&section.listed));
     }
     if !section.flags.rows.is_empty() {
         table(&section.flags, out);
@@ -106,7 +124,11 @@ fn figures(section: &Section, out: &mut String) {
     let mut small = false;
     for (i, figure) in section.figures.iter().enumerate() {
         if figure.small && !small {
-            out.push_str("<h3>The largest from near</h3>\n<div class=\"near\">\n");
+            out.push_str("<h3>Largest flags, close up</h3>\n");
+            if !section.close.is_empty() {
+                let _ = writeln!(out, "<p>{}</p>", escaped(&section.close));
+            }
+            out.push_str("<div class=\"near\">\n");
             small = true;
         }
         let _ = writeln!(
@@ -122,6 +144,16 @@ fn figures(section: &Section, out: &mut String) {
     if small {
         out.push_str("</div>\n");
     }
+}
+
+/// A link to a file beside the report.
+fn linked(file: &str) -> String {
+    // Of a path, every byte that could mean anything else is written as its number.
+    let plain = |b: u8| b.is_ascii_alphanumeric() || b"-._~/".contains(&b);
+    let address: String =
+        file.bytes().map(|b| if plain(b) { char::from(b).to_string() } else { format!("%{b:02X}") }).collect();
+    // `./` keeps a colon in a name from being a scheme.
+    format!(" <a href=\"./{address}\">{}</a>", escaped(file))
 }
 
 /// The picture with its words for those who do not see it.
@@ -158,10 +190,15 @@ fn table(table: &Table, out: &mut String) {
             };
             let _ = write!(out, "<td>{}</td>", mark.map(shape).unwrap_or_default());
         }
-        for ((_, number), cell) in table.head.iter().zip(row) {
-            let _ = write!(out, "<td{}>{}</td>", numeric(*number), escaped(cell));
+        for ((name, number), cell) in table.head.iter().zip(row) {
+            let _ = write!(out, "<td{} data-name=\"{}\">{}</td>", numeric(*number), escaped(name), escaped(cell));
         }
         out.push_str("</tr>\n");
+        if let Some(note) = table.notes.get(at).filter(|note| !note.is_empty()) {
+            // Below its row over the whole width: it is never beyond an edge.
+            let columns = table.head.len() + usize::from(!table.marks.is_empty());
+            let _ = writeln!(out, "<tr class=\"note\"><td colspan=\"{columns}\">note: {}</td></tr>", escaped(note));
+        }
     }
     out.push_str("</tbody>\n</table></div>\n");
 }

@@ -212,7 +212,7 @@ impl Inspection {
         let _ = writeln!(out, "\n  {:>3}  {:width$}  {:8}  {:10}  {:>8}", "#", "column", "kind", "unit", "missing");
         for c in &self.columns {
             let (name, unit) = (printable(&c.name), printable(&c.unit));
-            let why = c.why.map_or(String::new(), |why| format!("  no channel: {why}"));
+            let why = c.why.map_or(String::new(), |why| format!("  not a channel: {why}"));
             let _ = writeln!(out, "  {:>3}  {name:width$}  {:8}  {unit:10}  {:>8}{why}", c.number, c.kind, c.missing);
         }
     }

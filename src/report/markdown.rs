@@ -28,18 +28,26 @@ fn escaped(text: &str) -> String {
 
 /// The page.
 pub(super) fn markdown(page: &Page) -> String {
-    let mut out = format!("# {}\n\n{}\n\n", escaped(&page.title), escaped(&page.outcome));
+    let (title, byline, outcome) = (escaped(&page.title), escaped(&page.byline), escaped(&page.outcome));
+    let mut out = format!("# {title}\n\n{byline}\n\n{outcome}\n\n");
     let facts = page.facts.iter().map(|(name, value)| vec![(*name).to_owned(), value.clone()]).collect();
-    table(&Table { head: vec![("record", false), ("", false)], rows: facts, marks: Vec::new() }, &mut out);
+    table(&Table { head: vec![("record", false), ("", false)], rows: facts, ..Table::default() }, &mut out);
     notes(&page.notes, &mut out);
     out.push_str("## Columns\n\n");
     table(&page.columns, &mut out);
     page.channels.iter().for_each(|section| channel(section, &mut out));
-    let _ = write!(out, "## The same result again\n\n{}", block(&page.command, "sh"));
+    if !page.references.is_empty() {
+        out.push_str("## References\n\n");
+        for (cited, document) in &page.references {
+            let _ = writeln!(out, "- {}: {}", escaped(cited), escaped(document));
+        }
+        out.push('\n');
+    }
+    let _ = write!(out, "## How to reproduce\n\n{}", block(&page.command, "sh"));
     let _ = write!(out, "{}\n\n", escaped(&page.command_note));
     match &page.session {
         Some(session) => out.push_str(&block(session, "toml")),
-        None => out.push_str("The session is too long to be repeated here; it can be saved beside this report.\n"),
+        None => out.push_str("The session is too long to be repeated here; save it beside this report.\n"),
     }
     out
 }
@@ -62,12 +70,18 @@ fn notes(notes: &[String], out: &mut String) {
 }
 
 fn channel(section: &Section, out: &mut String) {
-    let _ = write!(out, "## {}\n\n{}\n\n", escaped(&section.title), escaped(&section.method));
+    let (title, method) = (escaped(&section.title), escaped(&section.method));
+    let _ = write!(out, "## {title}\n\n{method}\n\n{}\n\n", escaped(&section.advice));
     let counts: Vec<String> =
         section.counts.iter().map(|(what, count)| format!("**{}** {}", escaped(count), escaped(what))).collect();
     let _ = write!(out, "{}\n\n", counts.join(" · "));
     notes(&section.notes, out);
+    let mut small = false;
     for figure in &section.figures {
+        if figure.small && !small {
+            let _ = write!(out, "### Largest flags, close up\n\n{}\n\n", escaped(&section.close));
+            small = true;
+        }
         let caption = escaped(&figure.caption);
         let _ = write!(out, "![{caption}](data:image/svg+xml;base64,{})\n\n{caption}\n\n", base64(&alone(&figure.svg)));
     }
@@ -93,7 +107,12 @@ fn table(table: &Table, out: &mut String) {
     out.push_str(&row(first("---".into()).chain(rule).collect()));
     for (at, cells) in table.rows.iter().enumerate() {
         let mark = table.marks.get(at).map(shape).into_iter();
-        out.push_str(&row(mark.chain(cells.iter().map(|cell| escaped(cell))).collect()));
+        let mut cells: Vec<String> = cells.iter().map(|cell| escaped(cell)).collect();
+        let note = table.notes.get(at).filter(|note| !note.is_empty());
+        if let (Some(note), Some(last)) = (note, cells.last_mut()) {
+            last.push_str(&format!("; note: {}", escaped(note)));
+        }
+        out.push_str(&row(mark.chain(cells).collect()));
     }
     out.push('\n');
 }

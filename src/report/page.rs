@@ -4,13 +4,14 @@
 use std::path::Path;
 
 use super::svg::Figure;
-use super::{Inspection, Summary};
+use super::{Byline, Inspection, Summary};
 use crate::error::{Error, Result};
 use crate::plot::FlagState;
 use crate::session::{Analysed, Session, clean_command, document};
 use crate::track::{Source, Track};
 
 mod channel;
+mod citations;
 mod flagged;
 mod record;
 
@@ -22,6 +23,8 @@ const LONGEST_SESSION: usize = 256 << 10;
 pub(super) struct Page {
     /// Name of the record.
     pub(super) title: String,
+    /// When it was made, and by whom.
+    pub(super) byline: String,
     /// What came out, in a line.
     pub(super) outcome: String,
     /// Names and values about record and program.
@@ -32,6 +35,8 @@ pub(super) struct Page {
     pub(super) notes: Vec<String>,
     /// One section for each channel.
     pub(super) channels: Vec<Section>,
+    /// The documents that the methods come from: what cites them, and what they are.
+    pub(super) references: Vec<(String, String)>,
     /// What to type to get the same result.
     pub(super) command: String,
     /// What is to be known about that.
@@ -47,6 +52,8 @@ pub(super) struct Section {
     pub(super) title: String,
     /// Method and repair, in words.
     pub(super) method: String,
+    /// What the method is for, and where it fails.
+    pub(super) advice: String,
     /// Names and numbers.
     pub(super) counts: Vec<(String, String)>,
     /// The settings that matter.
@@ -55,10 +62,14 @@ pub(super) struct Section {
     pub(super) notes: Vec<String>,
     /// The pictures.
     pub(super) figures: Vec<Figure>,
+    /// How many of the runs are shown close up; empty when all are.
+    pub(super) close: String,
     /// Flags and decisions with their evidence.
     pub(super) flags: Table,
     /// How much of the table is listed, and where the rest is, or that there is nothing to list; empty when all is.
     pub(super) listed: String,
+    /// The file beside the report that has the rest, where there is one.
+    pub(super) beside: Option<String>,
 }
 
 /// A table of texts.
@@ -70,6 +81,8 @@ pub(super) struct Table {
     pub(super) rows: Vec<Vec<String>>,
     /// For each row how its sample is marked in pictures; empty for a table that is not about samples.
     pub(super) marks: Vec<Option<FlagState>>,
+    /// For each row the analyst's note, often empty; empty for a table without notes.
+    pub(super) notes: Vec<String>,
 }
 
 impl Page {
@@ -77,7 +90,13 @@ impl Page {
     ///
     /// # Errors
     /// When the input cannot be read again, or is no longer the one that was loaded.
-    pub(super) fn of(track: &Track, session: &Session, analysed: &Analysed, path: &Path) -> Result<Self> {
+    pub(super) fn of(
+        track: &Track,
+        session: &Session,
+        analysed: &Analysed,
+        byline: &Byline,
+        path: &Path,
+    ) -> Result<Self> {
         let inspection = Inspection::of(track);
         let summary = Summary::of(track, session, analysed);
         let mut saved = session.clone();
@@ -94,7 +113,8 @@ impl Page {
         let sections = summary.channels.iter().enumerate().zip(tables);
         let sections = sections.map(|((plan, summary), flags)| {
             let (index, samples, outcome) = &analysed.channels[plan];
-            channel::section(track, &session.plans[plan], (*index, samples, outcome), summary, flags)
+            let beside = byline.flags.as_deref();
+            channel::section(track, &session.plans[plan], (*index, samples, outcome), summary, (flags, beside))
         });
         // Of a session beside its record, the path begins with `./`.
         let mut said = session.clone();
@@ -104,11 +124,13 @@ impl Page {
         let command = clean_command(&said, track, Path::new("cleaned.csv"));
         Ok(Self {
             title: track.source.name(),
+            byline: byline.words(),
             outcome: record::outcome(&summary),
             facts: record::facts(&inspection, &summary, &clean_sha256),
             columns: record::columns(&inspection),
             notes: record::notes(&inspection),
             channels: sections.collect(),
+            references: citations::cited(session),
             command_note: record::command_note(command.is_some()),
             command: command.unwrap_or_else(|| "wildpoint replay session.toml -o cleaned.csv".into()),
             session: text.filter(|text| text.len() <= LONGEST_SESSION),
@@ -136,8 +158,8 @@ impl ReportForm {
             "html" | "htm" => Ok(Self::Html),
             "md" | "markdown" => Ok(Self::Markdown),
             _ => Err(Error::usage(
-                format!("{}: the ending does not say what the report is", path.display()),
-                "a report ends in .html (one page with its pictures) or in .md (Markdown, pictures inside)",
+                format!("{}: unknown report format", path.display()),
+                "use a name that ends in .html (one page) or .md (Markdown); print the page to make a PDF",
             )),
         }
     }

@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::inspection::remarks;
+use super::written::Written;
+use crate::counted::{counted, plural};
 use crate::error::{Error, Result};
 use crate::method::{Verdict, Way};
 use crate::param::Settings;
@@ -37,6 +39,14 @@ pub struct Summary {
     pub notes: Vec<String>,
     /// One entry per channel.
     pub channels: Vec<ChannelSummary>,
+    /// The files that were written; none where the command writes no files.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "files")]
+    pub written: Option<Written>,
+}
+
+/// The files alone: what a program did not ask for is no news to it.
+fn files<S: serde::Serializer>(written: &Option<Written>, out: S) -> std::result::Result<S::Ok, S::Error> {
+    out.collect_seq(written.iter().flat_map(|written| &written.files))
 }
 
 /// The result of one channel in a nutshell.
@@ -148,7 +158,34 @@ impl Summary {
             differs: None,
             notes: remarks(track),
             channels: channels.collect(),
+            written: None,
         }
+    }
+
+    /// The result in a line that can be quoted.
+    #[must_use]
+    pub fn headline(&self) -> String {
+        let sum = |of: fn(&Counts) -> usize| self.channels.iter().map(|c| of(&c.counts)).sum::<usize>();
+        let samples = sum(|n| n.present);
+        #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+        let share = if samples > 0 { 100.0 * self.flagged as f64 / samples as f64 } else { 0.0 };
+        let mut methods: Vec<&str> = self.channels.iter().map(|c| c.method).collect();
+        methods.dedup();
+        let file = printable(self.file.rsplit(['/', '\\']).next().unwrap_or_default());
+        let mut line = format!(
+            "{file}: {} of {} flagged ({share:.2} %), {} repaired, {} removed",
+            self.flagged,
+            counted(samples, "sample"),
+            sum(|n| n.repaired),
+            sum(|n| n.removed)
+        );
+        for (count, what) in [(sum(|n| n.suspects), "suspect"), (sum(|n| n.unchecked), "unchecked")] {
+            if count > 0 {
+                let _ = write!(line, ", {count} {what}");
+            }
+        }
+        let channels = counted(self.channels.len(), "channel");
+        line + &format!(" ({channels}, {})", methods.join(", "))
     }
 
     /// Compares the repaired first channel with `reference`, a column of the record that holds its outlier-free
@@ -176,7 +213,7 @@ impl Summary {
     /// A few lines for people.
     #[must_use]
     pub fn text(&self) -> String {
-        let mut out = String::new();
+        let mut out = self.headline() + "\n";
         for note in &self.notes {
             let _ = writeln!(out, "note: {}", printable(note));
         }
@@ -186,14 +223,14 @@ impl Summary {
             if n.by_checks > 0 {
                 let _ = write!(out, " and the checks before it ({} by checks)", n.by_checks);
             }
-            let _ = write!(out, " ({} isolated, {} patches)", n.isolated, n.patches);
+            let _ = write!(out, " ({} isolated, {} run{})", n.isolated, n.patches, plural(n.patches));
             let _ = write!(out, ", {} repaired, {} removed", n.repaired, n.removed);
             for (count, what) in [
                 (n.suspects, "suspect"),
                 (n.unchecked, "unchecked"),
                 (n.filled, "filled"),
                 (n.decisions, "decided by the analyst"),
-                (n.conflicts, "of them against the method"),
+                (n.conflicts, "contradicting the method"),
                 (n.missing, "missing"),
                 (c.restarts.len(), "restarts"),
             ] {
@@ -201,7 +238,7 @@ impl Summary {
                     let _ = write!(out, ", {count} {what}");
                 }
             }
-            let _ = writeln!(out, " of {} samples in {} segments", n.present, c.segments);
+            let _ = writeln!(out, " of {} samples in {} segment{}", n.present, c.segments, plural(c.segments));
             if let Some(calibration) = &c.calibration {
                 let _ = writeln!(out, "  the record: {}", printable(&calibration.words));
             }
@@ -214,7 +251,7 @@ impl Summary {
                 let _ = writeln!(out, "  circular: judged unwrapped, period {period}");
             }
             if let Some(s) = &c.score {
-                let _ = writeln!(out, "  against the truth: {}", score_line(s));
+                let _ = writeln!(out, "  truth: {}", score_line(s));
             }
             if let Some(FinalError { rms: Some(rms), samples, removed }) = c.final_error {
                 let _ = write!(out, "  final error {rms:.6} over {samples} samples with a value");
@@ -227,20 +264,22 @@ impl Summary {
         for difference in self.differs.iter().flatten() {
             let _ = writeln!(out, "note: not what the session recorded: {}", printable(difference));
         }
+        out += &self.written.as_ref().map(Written::text).unwrap_or_default();
         out
     }
 }
 
 /// A score in a line.
 pub(super) fn score_line(s: &Scores) -> String {
-    let mut line = format!("{} missed, {} false", s.samples.missed, s.samples.false_alarms);
+    let false_alarms = s.samples.false_alarms;
+    let mut line = format!("{} missed, {false_alarms} false alarm{}", s.samples.missed, plural(false_alarms));
     if let Some(rate) = s.recall {
         let _ = write!(line, ", rejection rate {:.1} %", 100.0 * rate);
     }
     if let Some(precision) = s.samples.precision {
         let _ = write!(line, ", precision {:.1} %", 100.0 * precision);
     }
-    for (part, what) in [(s.isolated, "isolated"), (s.patches, "patches")] {
+    for (part, what) in [(s.isolated, "isolated"), (s.patches, "runs")] {
         if part.events > 0 {
             let _ = write!(
                 line,
@@ -250,7 +289,7 @@ pub(super) fn score_line(s: &Scores) -> String {
         }
     }
     if s.events.false_alarms > 0 {
-        let _ = write!(line, "; {} false events", s.events.false_alarms);
+        let _ = write!(line, "; {} false event{}", s.events.false_alarms, plural(s.events.false_alarms));
     }
     line
 }

@@ -4,11 +4,12 @@ use crate::method::shared::MAX_GAP;
 use crate::plot::{Axis, Curve, Drawn, FlagState, Flags, Trace, View};
 use crate::session::Outcome;
 use crate::stop::Stop;
-use crate::track::{Series, TimeAxis, Track};
+use crate::track::{Channel, Series, TimeAxis, Track};
 
 mod axes;
 mod close;
 mod curve;
+mod histogram;
 mod marks;
 mod picture;
 
@@ -35,6 +36,8 @@ struct Size {
 /// What all pictures of a channel share.
 struct Subject<'a> {
     time: &'a TimeAxis,
+    /// Name of the channel, with its unit.
+    channel: String,
     series: Series<'a>,
     drawn: Drawn,
     flags: Flags,
@@ -42,19 +45,36 @@ struct Subject<'a> {
     gap: f64,
 }
 
-/// The pictures of a channel: overview, trace, residual, and the largest wild points from near.
-pub(super) fn figures(track: &Track, series: Series<'_>, outcome: &Outcome) -> Vec<Figure> {
+/// The pictures of a channel.
+#[derive(Debug, Default)]
+pub(super) struct Pictures {
+    /// Overview, trace, residual before and after repair, histogram, and the largest flags close up.
+    pub(super) figures: Vec<Figure>,
+    /// How many of the events are shown close up; empty when all are.
+    pub(super) close: String,
+}
+
+/// The pictures of a channel.
+pub(super) fn figures(track: &Track, channel: &Channel, series: Series<'_>, outcome: &Outcome) -> Pictures {
     if series.is_empty() {
-        return Vec::new();
+        return Pictures::default();
     }
     // Nobody stops it.
-    let Ok(drawn) = Drawn::new(outcome.clone(), &series, None, &Stop::never()) else { return Vec::new() };
+    let Ok(drawn) = Drawn::new(outcome.clone(), &series, None, &Stop::never()) else { return Pictures::default() };
     let flags = Flags::new(&drawn.flags(&series));
     let gap = series.longest_step(outcome.detection.setup.settings.whole_or_off(MAX_GAP.key));
-    let subject = Subject { time: &track.time, series, drawn, flags, gap };
-    let mut figures = vec![picture::overview(&subject), picture::trace(&subject), picture::residual(&subject)];
-    figures.extend(close::largest(&subject));
-    figures
+    let unit = if channel.unit.is_empty() { String::new() } else { format!(" [{}]", channel.unit) };
+    let subject = Subject { time: &track.time, channel: format!("{}{unit}", channel.name), series, drawn, flags, gap };
+    let mut figures = vec![
+        picture::overview(&subject),
+        picture::trace(&subject),
+        picture::residual(&subject),
+        picture::residual_after(&subject),
+        histogram::histogram(&subject),
+    ];
+    let (close, words) = close::largest(&subject);
+    figures.extend(close);
+    Pictures { figures, close: words }
 }
 
 impl Subject<'_> {

@@ -111,7 +111,7 @@ impl Layout {
         if options.time.is_none() && (guessed || (track.time.column.is_none() && others > 0)) {
             let names: Vec<&str> = track.columns.iter().map(|c| c.name.as_str()).collect();
             return Err(Error::usage(
-                "which column of the stream is the time?",
+                "the time column of the stream is not clear",
                 format!("name it with --time: sample (their number), or one of {} (#1 is the first)", names.join(", ")),
             ));
         }

@@ -8,10 +8,19 @@ use super::judge::Said;
 use super::layout::Sample;
 use crate::cli::FormatArg;
 use crate::error::{Error, Result};
+use crate::session::table::{Column, column, names};
 use crate::track::{escape_formula, number_text};
 
 /// The columns, in order.
-pub(super) const HEADER: &str = "row,time,value,verdict,expected,tolerance,correction";
+pub const STREAM_COLUMNS: [Column; 7] = [
+    column("row", "number of the line of data, from 1"),
+    column("time", "time, as it came in"),
+    column("value", "value, as it came in"),
+    column("verdict", "`normal`, `outlier`, `suspect`, `unchecked`, `missing` or `unreadable`"),
+    column("expected", "value that the method expects"),
+    column("tolerance", "distance from the expected value at which a sample is flagged"),
+    column("correction", "`correction` where an earlier verdict on this row is replaced (JSON: true)"),
+];
 
 /// A line about a sample.
 #[derive(Serialize)]
@@ -56,7 +65,7 @@ impl Label {
 /// # Errors
 /// [`Error::Io`].
 pub(super) fn header(format: FormatArg, out: &mut dyn Write) -> Result<()> {
-    if format == FormatArg::Csv { put(out, HEADER) } else { Ok(()) }
+    if format == FormatArg::Csv { put(out, &names(&STREAM_COLUMNS).join(",")) } else { Ok(()) }
 }
 
 /// Writes what is said of a sample.

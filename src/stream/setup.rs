@@ -2,7 +2,7 @@
 
 use super::predict::METHODS;
 use crate::cli::StreamArgs;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, one_of};
 use crate::method::{Method, shared};
 use crate::param::{Choice, Settings, Value};
 use crate::session::{Plan as SessionPlan, Preset, Session, method_of_id, read};
@@ -113,7 +113,8 @@ fn planned<'a>(session: &'a Session, channel: Option<&String>) -> Result<&'a Ses
         // A stream may name its columns otherwise than the record of the session.
         (Some(_), [only]) => Ok(only),
         (Some(name), plans) => plans.iter().find(|p| p.channel == *name).ok_or_else(|| {
-            Error::usage(format!("{name}: the session has no such channel"), format!("channels: {}", names()))
+            let names: Vec<&str> = plans.iter().map(|p| p.channel.as_str()).collect();
+            Error::usage(format!("{name}: the session has no such channel"), one_of("channels", name, &names))
         }),
     }
 }
@@ -127,7 +128,7 @@ fn check(plan: &Plan, args: &StreamArgs) -> Result<()> {
     let (id, settings) = (plan.method.about().id, &plan.settings);
     if let Some((param, value)) = settings.iter().find(|(_, value)| matches!(value, Value::Duration(_))) {
         return Err(Error::usage(
-            format!("{} = {value}: a stream does not know its interval yet", param.key),
+            format!("{} = {value}: the interval of a stream is not known yet", param.key),
             format!("give {} as a number of samples: --set {}=N", param.key, param.key),
         ));
     }
@@ -144,15 +145,16 @@ fn check(plan: &Plan, args: &StreamArgs) -> Result<()> {
     let measured = settings.get(shared::SIGMA.key).map(|_| settings.choice(shared::SIGMA.key));
     if let Some(Choice::Word(word)) = measured {
         return Err(Error::usage(
-            format!("sigma = {word}: {id} cannot measure the noise of samples that have not come yet"),
+            format!("sigma = {word}: {id} cannot measure the noise of samples that have not arrived yet"),
             "give the precision of the instrument in the channel's units: --set sigma=NUMBER; `wildpoint inspect` \
              measures it on a record",
         ));
     }
     match args.interval {
-        Some(interval) if !(interval > 0.0 && interval.is_finite()) => {
-            Err(Error::usage(format!("--interval {interval}: not a time between samples"), "give seconds, 0.1 say"))
-        }
+        Some(interval) if !(interval > 0.0 && interval.is_finite()) => Err(Error::usage(
+            format!("--interval {interval}: not a time between samples"),
+            "give seconds, for example 0.1",
+        )),
         _ => Ok(()),
     }
 }

@@ -17,7 +17,7 @@ mod screen;
 mod theme;
 
 pub use listing::listing;
-pub use screen::Screen;
+pub use screen::{SETTINGS, Screen, Setting};
 
 /// A configuration larger than this is none.
 const LARGEST: u64 = 1 << 20;
@@ -31,6 +31,8 @@ pub struct Config {
     pub paints: Paints,
     /// Everything else about the screen.
     pub screen: Screen,
+    /// The name of the analyst in reports.
+    pub analyst: Option<String>,
 }
 
 /// Something that is not understood.
@@ -85,7 +87,7 @@ impl Config {
     pub fn read(path: &Path) -> Result<Self> {
         let size = std::fs::metadata(path).map_err(Error::io("read", path))?.len();
         if size > LARGEST {
-            return Err(Error::input(path, "this is no configuration: larger than 1 MiB", "name another --config"));
+            return Err(Error::input(path, "not a configuration: larger than 1 MiB", "name another --config"));
         }
         let text = std::fs::read_to_string(path).map_err(Error::io("read", path))?;
         Self::of_text(&text, path)
@@ -98,14 +100,18 @@ impl Config {
     pub fn of_text(text: &str, path: &Path) -> Result<Self> {
         let document = DeTable::parse(text).map_err(|e| {
             let at = e.span().map_or(0, |span| span.start);
-            let fault = Fault { at, what: e.message().replace('\n', "; "), help: "this is no TOML".into() };
+            let fault = Fault { at, what: e.message().replace('\n', "; "), help: "not valid TOML".into() };
             told(path, text, vec![fault])
         })?;
         let mut config = Self::default();
         let mut faults = Vec::new();
         for (name, value, span) in entries(document.get_ref()) {
             let DeValue::Table(table) = value.get_ref() else {
-                faults.push(unknown(&span, name, "table", &TABLES));
+                match (name, value.get_ref().as_str()) {
+                    (ANALYST, Some(text)) => config.analyst = Some(text.to_owned()),
+                    (ANALYST, None) => faults.push(wrong(value, name, "a name, as in \"M. Ito\"")),
+                    _ => faults.push(unknown(&span, name, "table", &TABLES)),
+                }
                 continue;
             };
             match name {
@@ -119,8 +125,11 @@ impl Config {
     }
 }
 
-/// The tables of a configuration.
-const TABLES: [&str; 3] = ["keys", "theme", "screen"];
+/// The key of the analyst's name.
+const ANALYST: &str = "analyst";
+
+/// The tables of a configuration, and its key outside of them.
+const TABLES: [&str; 4] = ["keys", "theme", "screen", ANALYST];
 
 /// The fault of a name that is none of `names`.
 fn unknown(span: &Range<usize>, name: &str, kind: &str, names: &[&str]) -> Fault {
@@ -168,7 +177,8 @@ mod tests {
     #[test]
     fn what_is_not_understood_is_told_with_its_line_and_the_way_out() {
         for (text, line, what, help) in [
-            ("x = 1", 1, "x: there is no such table", "there are: keys, theme, screen"),
+            ("x = 1", 1, "x: there is no such table", "there are: keys, theme, screen, analyst"),
+            ("analyst = 5", 1, "of type integer", "a name"),
             ("\n[key]\n", 2, "key: there is no such table", "did you mean keys?"),
             ("[keys]\n\nnext-flg = \"n\"", 3, "next-flg: there is no such action", "did you mean next-flag?"),
             ("[keys]\nnext-flag = 5", 2, "of type integer", "a list of keys"),
@@ -188,12 +198,17 @@ mod tests {
             ("[screen]\nmouse = 1", 2, "mouse: this is of type integer", "true or false"),
             ("[screen]\nfps = 0", 2, "fps = 0: out of range", "1 to 120"),
             ("[screen]\nglyphs = \"uni\"", 2, "uni: there is no such glyph set", "unicode"),
-            ("[screen]\nmouse = true\nmouse = true", 3, "duplicate key", "no TOML"),
+            ("[screen]\nmouse = true\nmouse = true", 3, "duplicate key", "not valid TOML"),
         ] {
             let told = read(text).map(|_| ()).unwrap_err().to_string();
             let start = format!("config.toml:{line}: ");
             assert!(told.starts_with(&start) && told.contains(what) && told.contains(help), "{text:?}: {told}");
         }
+    }
+
+    #[test]
+    fn the_analyst_has_a_name() {
+        assert_eq!(read("analyst = \"M. Ito\"\n[screen]\nfps = 9").unwrap().analyst.as_deref(), Some("M. Ito"));
     }
 
     #[test]

@@ -184,12 +184,12 @@ impl Outside {
                 }
                 Effect::Save { path, overwrite, then_quit } => {
                     let what = Written::Session { revision: model.revision, then_quit };
-                    self.write(model, Errand { what, path, overwrite });
+                    self.write(model, Errand { what, path, overwrite, analyst: model.analyst.clone() });
                 }
                 Effect::Export { outputs, overwrite } => {
                     let path = outputs.first().map(|o| o.path.clone()).unwrap_or_default();
                     let what = Written::Exported { outputs, revision: model.revision };
-                    self.write(model, Errand { what, path, overwrite });
+                    self.write(model, Errand { what, path, overwrite, analyst: model.analyst.clone() });
                 }
                 Effect::Files(Task::Begin) => {
                     self.begin_anew(model);

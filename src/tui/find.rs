@@ -104,7 +104,9 @@ impl Query {
         let Some((quantity, comparison, number)) = compared else { return Ok(None) };
         match number.parse::<f64>() {
             Ok(number) if !number.is_nan() => Ok(Some(Self::Value(quantity, comparison, number))),
-            _ => Err(format!("{}: a number is wanted after the sign, y>8.5 say", crate::track::printable(number))),
+            _ => {
+                Err(format!("{}: expected a number after the sign, for example y>8.5", crate::track::printable(number)))
+            }
         }
     }
 

@@ -13,7 +13,7 @@ use super::words::counted;
 use crate::error::{Error, Result};
 use crate::job::Worker;
 use crate::plot::Drawn;
-use crate::report;
+use crate::report::{self, Byline};
 use crate::review::Decisions;
 use crate::session::{
     Analysed, Detection, Member, Session, Setup, decisions, detect_taught, detect_together, document,
@@ -169,6 +169,8 @@ pub struct Errand {
     pub path: PathBuf,
     /// Whether they may take the place of files that are there.
     pub overwrite: bool,
+    /// The name of the analyst, for a report.
+    pub analyst: Option<String>,
 }
 
 /// Writes files on a thread of its own and sends how it went. A session file that is as `known` is written again even
@@ -177,7 +179,10 @@ pub fn write(track: Arc<Track>, session: Session, errand: Errand, known: Known, 
     std::thread::spawn(move || {
         let result = match &errand.what {
             Written::Session { .. } => save(&track, session, &errand, &known),
-            Written::Exported { outputs, .. } => export(&track, &session, outputs, errand.overwrite),
+            Written::Exported { outputs, .. } => {
+                let byline = Byline::today(errand.analyst.clone());
+                export(&track, &session, outputs, errand.overwrite, &byline)
+            }
         };
         if let (Ok(_), Written::Exported { .. }, Some(path)) =
             (&result, &errand.what, errand.what.session(&errand.path))
@@ -227,7 +232,13 @@ fn since(record_was: Option<Lost>, track: &Track) -> String {
 ///
 /// # Errors
 /// What the outputs give; nothing has been written then.
-pub fn export(track: &Track, session: &Session, outputs: &[Output], overwrite: bool) -> Result<String> {
+pub fn export(
+    track: &Track,
+    session: &Session,
+    outputs: &[Output],
+    overwrite: bool,
+    byline: &Byline,
+) -> Result<String> {
     let analysed = Analysed::of(session, track, &Stop::never())?;
     let changes = analysed.changes(track);
     let mut files = outputs_of(track, overwrite);
@@ -239,7 +250,11 @@ pub fn export(track: &Track, session: &Session, outputs: &[Output], overwrite: b
             OutputKind::Cleaned => files.stage(path, |w| write_cleaned(track, &changes, w).map(|_| ())),
             OutputKind::Flags => files.stage(path, |w| report::flags(track, session, &analysed, w)),
             OutputKind::Diagnostics => files.stage(path, |w| report::diagnostics(track, session, &analysed, w)),
-            OutputKind::Report => files.stage(path, |w| report::report(track, session, &analysed, path, w)),
+            OutputKind::Report => {
+                let flags = outputs.iter().find(|output| output.kind == OutputKind::Flags).map(|output| &*output.path);
+                let byline = byline.beside(path, flags);
+                files.stage(path, |w| report::report(track, session, &analysed, (&byline, path), w))
+            }
             OutputKind::Decisions => files.stage(path, |w| decisions(track, session, w)),
             OutputKind::Session => {
                 let text = session_text(&mut session.clone(), track, &analysed, path)?;

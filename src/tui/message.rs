@@ -176,12 +176,14 @@ impl OutputKind {
     /// Its name, what a file of it is called after the name of the record, and what it is in a line.
     fn row(self) -> (&'static str, &'static str, &'static str) {
         match self {
-            Self::Cleaned => ("cleaned", ".clean.csv", "the record again; only repaired and removed cells differ"),
+            Self::Cleaned => {
+                ("cleaned", ".clean.csv", "the record with outliers repaired or removed; all other bytes unchanged")
+            }
             Self::Flags => ("flags", ".flags.csv", "a row for every flag and decision, with its evidence"),
             Self::Diagnostics => ("diagnostics", ".diagnostics.csv", "a row for every sample"),
-            Self::Report => ("report", ".html", "a page with pictures, settings and flags (.md: Markdown)"),
-            Self::Session => ("session", ".wild.toml", "what gives this result again: settings and decisions"),
-            Self::Decisions => ("decisions", ".decisions.csv", "a row for every decision; needs no record"),
+            Self::Report => ("report", ".html", "one page: plots, settings, flags (.md: Markdown)"),
+            Self::Session => ("session", ".wild.toml", "settings and decisions: reproduces this result"),
+            Self::Decisions => ("decisions", ".decisions.csv", "a row for every decision; does not need the record"),
         }
     }
 

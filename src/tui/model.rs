@@ -74,6 +74,8 @@ pub struct Model {
     pub keys: Keys,
     /// Whether the mouse is the program's; otherwise the terminal selects text with it.
     pub mouse: bool,
+    /// The name of the analyst in reports.
+    pub analyst: Option<String>,
     /// The cell of the trace in which a button went down, until it comes up.
     pub pressed: Option<(u16, u16)>,
     /// The cell in which the last click chose a row of a list, as long as nothing else has moved that list.
@@ -176,6 +178,7 @@ impl Model {
             glyphs,
             keys: Keys::default(),
             mouse: false,
+            analyst: None,
             pressed: None,
             clicked: None,
             lines: Vec::new(),

@@ -343,7 +343,7 @@ fn back(model: &mut Model) -> Vec<Effect> {
         model.say(Tone::Warning, "the search for settings is stopped; nothing is taken");
         return vec![Effect::CancelStudy];
     } else if model.polling.take().is_some() {
-        model.say(Tone::Warning, "no method is asked any more; C twice asks them again");
+        model.say(Tone::Warning, "stopped; press C twice to run all methods again");
         return vec![Effect::CancelPoll];
     } else {
         model.focus = Panel::Trace;

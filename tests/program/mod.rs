@@ -52,6 +52,8 @@ impl Folder {
         command.current_dir(self.0.path()).env("LANG", "C.UTF-8").env_remove("LC_ALL").env_remove("NO_COLOR");
         // The configuration of whoever runs tests does not change them.
         command.env("XDG_CONFIG_HOME", self.0.path());
+        // Nor does the day on which they run.
+        command.env("SOURCE_DATE_EPOCH", "1767225600");
         let output = command.args(words.split_whitespace()).output().unwrap();
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
         Ran { status: output.status.code().unwrap(), out: text(output.stdout), err: text(output.stderr) }

@@ -54,7 +54,7 @@ fn without_decisions_one_clean_gives_the_same_bytes() {
     terminal.keys(":export exported.csv\r");
     terminal.wait_for("wrote exported.csv");
     terminal.keys(":command-line again.csv\r");
-    terminal.wait_for("the same without a screen");
+    terminal.wait_for("equivalent command");
     terminal.keys("\x1b");
     terminal.keys(":q!\r");
     let lines = copied(&terminal.end().1);
@@ -83,7 +83,7 @@ fn with_decisions_the_saved_session_is_replayed() {
     terminal.keys(":export exported.csv\r");
     terminal.wait_for("wrote exported.csv");
     terminal.keys(":command-line again.csv\r");
-    terminal.wait_for("the same without a screen");
+    terminal.wait_for("equivalent command");
     terminal.keys("\x1b");
     terminal.keys("q");
     let lines = copied(&terminal.end().1);

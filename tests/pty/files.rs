@@ -63,10 +63,10 @@ fn all_outputs_are_written_from_one_dialog() {
     let mut terminal = start(&folder, COMPACT);
     std::fs::write(folder.path("demo.flags.csv"), "theirs").unwrap();
     terminal.keys(CTRL_E);
-    terminal.wait_for("demo.flags.csv  there already");
+    terminal.wait_for("demo.flags.csv  exists");
     // Flags and report besides the cleaned file.
     terminal.keys("\x1b[B \x1b[B\x1b[B \r");
-    terminal.wait_for("demo.flags.csv is there already");
+    terminal.wait_for("demo.flags.csv already exists");
     terminal.keys("o");
     terminal.wait_for("wrote 3 files");
     terminal.keys("q");

@@ -116,7 +116,7 @@ fn signals_keep_the_work_and_leaving_on_purpose_does_not() {
         terminal.wait_for("[+]");
         assert_eq!(desk.journals().len(), 2);
         terminal.keys("q");
-        terminal.wait_for("drop them and quit");
+        terminal.wait_for("discard them and quit");
         terminal.keys("d");
         assert_eq!(terminal.end().0, 0);
         assert_eq!(desk.journals(), std::slice::from_ref(&kept));

@@ -9,7 +9,7 @@ use super::workbench::{Bench, UNICODE_DARK};
 /// The rows of the queue's panel at 120x40: the row of the sample and its mark.
 fn rows(bench: &Bench) -> Vec<String> {
     let frame = bench.frame();
-    let lines = frame.lines().skip_while(|line| !line.contains("scales") || !line.contains("time")).skip(1);
+    let lines = frame.lines().skip_while(|line| !line.contains("sigma") || !line.contains("time")).skip(1);
     let panel = |line: &str| line.chars().skip(82).collect::<String>();
     let cells = |panel: String| {
         let cells: Vec<&str> = panel.trim_start_matches(['>', ' ']).split_whitespace().collect();

@@ -139,10 +139,9 @@ impl Limits {
     /// Refuses limits that are both off, or the wrong way round.
     fn verify(self, id: &str, example: &str) -> Result<(), Error> {
         match (self.suspect, self.fail) {
-            (None, None) => Err(Error::usage(
-                format!("{id}: without a limit it objects to nothing"),
-                format!("set fail, suspect or both: {example}"),
-            )),
+            (None, None) => {
+                Err(Error::usage(format!("{id}: needs a limit"), format!("set fail, suspect or both: {example}")))
+            }
             (Some(suspect), Some(fail)) if suspect > fail => Err(Error::usage(
                 format!("{id}: suspect = {suspect} lies beyond fail = {fail}"),
                 "what is suspect begins before what fails: give suspect the smaller limit",

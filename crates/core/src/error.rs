@@ -51,6 +51,13 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, c)| c)
 }
 
+/// The way out for a name that is none of `names`: the nearest of them, then `kind` and all of them.
+#[must_use]
+pub fn one_of(kind: &str, name: &str, names: &[&str]) -> String {
+    let hint = nearest(name, names.iter().copied()).map_or(String::new(), |near| format!("did you mean {near}? "));
+    format!("{hint}{kind}: {}", names.join(", "))
+}
+
 fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
@@ -74,5 +81,7 @@ mod tests {
     fn nearest_finds_a_slip_and_refuses_a_stranger() {
         assert_eq!(nearest("hample", ["hampel", "two-sided"]), Some("hampel"));
         assert_eq!(nearest("zzz", ["hampel", "two-sided"]), None);
+        assert_eq!(one_of("channels", "atl_m", &["alt_m", "vx"]), "did you mean alt_m? channels: alt_m, vx");
+        assert_eq!(one_of("channels", "zzzzz", &["alt_m", "vx"]), "channels: alt_m, vx");
     }
 }

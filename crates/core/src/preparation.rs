@@ -53,7 +53,7 @@ pub fn parse_period(text: &str) -> Result<Option<f64>> {
     };
     number.filter(|p| is_period(*p)).map(Some).ok_or_else(|| {
         let what = format!("period = {text}: not a period");
-        Error::usage(what, "give a positive number in units of the channel, 360, 24 or 2pi say, or off")
+        Error::usage(what, "give a positive number in the channel's units, for example 360, 24 or 2pi, or off")
     })
 }
 

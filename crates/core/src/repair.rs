@@ -70,7 +70,7 @@ impl Around<'_> {
 
 /// Every repair, in the order in which lists show them.
 pub static REPAIRS: &[Repair] = &[
-    Repair { id: "own", help: "what the method's document prescribes", way: Way::Own },
+    Repair { id: "own", help: "the method's own, as its document prescribes", way: Way::Own },
     Repair { id: "remove", help: "leave the cell empty", way: Way::Remove },
     Repair {
         id: "linear",
@@ -96,7 +96,7 @@ const IDS: &[&str] = &["own", "remove", "linear", "spline", "polynomial", "expec
 /// Which repair.
 pub const METHOD: Param = Param {
     key: "method",
-    help: "what takes the place of an outlier",
+    help: "replacement of an outlier",
     unit: "",
     kind: Kind::Choice(IDS),
     default: Value::Word("own"),

@@ -94,11 +94,11 @@ fn missing(far: &[Repeated], certain: bool, y: &[f64]) -> Option<Suggestion> {
         n => format!("{:?} {n} times ({:.2} %)", r.value, share(n)),
     };
     let list: Vec<String> = of_kind.iter().map(times).collect();
-    let verb = if certain { "stands" } else { "may stand" };
+    let verb = if certain { "is" } else { "may be" };
     Some(Suggestion {
         remedy: Remedy::Check(check),
         certain,
-        words: format!("{} {verb} for no value", list.join(", ")),
+        words: format!("{} {verb} a fill value", list.join(", ")),
     })
 }
 
@@ -140,7 +140,7 @@ mod tests {
         assert!(format!("{}", preparation.checks[0]).contains("-9999.0"));
         let offered: Vec<&Suggestion> = all.iter().filter(|s| !preparation.has(&s.remedy)).collect();
         assert_eq!(offered.len(), 1);
-        assert!(offered[0].words.starts_with("9999.0 once may stand for no value"), "{}", offered[0].words);
+        assert!(offered[0].words.starts_with("9999.0 once may be a fill value"), "{}", offered[0].words);
         let mut with_it = preparation.clone();
         with_it.take(offered[0].remedy.clone());
         assert!(all.iter().all(|s| with_it.has(&s.remedy)) && with_it.checks.len() == 2);

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-pub use wildpoint_core::error::nearest;
 use wildpoint_core::error::{Error as CoreError, MORE};
+pub use wildpoint_core::error::{nearest, one_of};
 use wildpoint_core::memory::{Full, words};
 use wildpoint_core::stop::Stopped;
 

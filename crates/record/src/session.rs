@@ -27,10 +27,10 @@ pub mod sweep;
 pub mod table;
 
 pub use analysis::{Member, detect, detect_taught, detect_together, settle};
-pub use changed::changed;
+pub use changed::{CHANGED_COLUMNS, changed};
 pub use cleaned::{changes, clean_sha256, write_cleaned};
 pub use command_line::{clean_command, quoted, replay_command};
-pub use decisions::decisions;
+pub use decisions::{DECISION_COLUMNS, decisions};
 pub use digest::Digest;
 pub use document::{parse, read, render};
 pub use edit::Edit;

@@ -1,8 +1,8 @@
 //! What a report says of a channel.
 
 use super::super::summary::{ChannelSummary, score_line};
-use super::super::svg::figures;
-use super::flagged::Flagged;
+use super::super::svg::{Pictures, figures};
+use super::flagged::{self, Flagged};
 use super::{Section, Table};
 use crate::param::{Param, Settings, Value};
 use crate::repair;
@@ -15,7 +15,7 @@ pub(super) fn section(
     plan: &Plan,
     (index, samples, outcome): (usize, &Samples, &Outcome),
     summary: &ChannelSummary,
-    (flags, rest): Flagged,
+    (flagged, beside): (Flagged, Option<&str>),
 ) -> Section {
     let channel = &track.channels[index];
     let about = plan.setup.method.about();
@@ -25,18 +25,20 @@ pub(super) fn section(
     let chosen = repair::chosen(&plan.setup.repair);
     let calibration = summary.calibration.as_ref().map(|found| format!("the record: {}", found.words));
     let mut notes: Vec<String> = calibration.into_iter().chain(summary.warnings.iter().cloned()).collect();
-    notes.extend(summary.score.as_ref().map(|s| format!("against the truth column: {}", score_line(s))));
+    notes.extend(summary.score.as_ref().map(|s| format!("truth: {}", score_line(s))));
     notes.extend(
         summary
             .restarts
             .iter()
             .take(20)
-            .map(|r| format!("the model was lost at row {} ({}), {}, and started again", r.row, r.time, r.direction)),
+            .map(|r| format!("the model restarted at row {} ({}), {}", r.row, r.time, r.direction)),
     );
     if summary.restarts.len() > 20 {
-        notes.push(format!("… and {} times more", summary.restarts.len() - 20));
+        notes.push(format!("… and {} more restarts", summary.restarts.len() - 20));
     }
-    let listed = if flags.rows.is_empty() { nothing_listed(&summary.counts) } else { rest };
+    let rest = flagged::in_words(&flagged, beside);
+    let listed = if flagged.table.rows.is_empty() { nothing_listed(&summary.counts) } else { rest };
+    let Pictures { figures, close } = figures(track, channel, series, outcome);
     Section {
         title: format!("{}{unit}", plan.channel),
         method: format!(
@@ -50,9 +52,12 @@ pub(super) fn section(
         counts: counts(summary),
         settings: settings(plan, &channel.unit),
         notes,
-        figures: figures(track, series, outcome),
-        flags,
+        advice: about.advice.split_whitespace().collect::<Vec<_>>().join(" "),
+        figures,
+        close,
+        flags: flagged.table,
         listed,
+        beside: beside.filter(|_| flagged.more > 0).map(str::to_owned),
     }
 }
 
@@ -73,14 +78,14 @@ fn counts(summary: &ChannelSummary) -> Vec<(String, String)> {
         (summary.segments, "segments", true),
         (n.flagged, "flagged", true),
         (n.isolated, "isolated", false),
-        (n.patches, "patches", false),
+        (n.patches, "runs", false),
         (n.repaired, "repaired", false),
         (n.removed, "removed", false),
         (n.filled, "filled", false),
         (n.suspects, "suspect", false),
         (n.unchecked, "unchecked", false),
         (n.decisions, "decided by the analyst", false),
-        (n.conflicts, "decisions against the method", false),
+        (n.conflicts, "decisions that contradict the method", false),
     ];
     let shown = all.into_iter().filter(|(count, _, always)| *always || *count > 0);
     shown.map(|(count, what, _)| (what.to_owned(), count.to_string())).collect()
@@ -107,13 +112,13 @@ fn settings(plan: &Plan, unit: &str) -> Table {
         rows.push(vec!["period".into(), period.to_string(), "channel units".into(), "set".into(), help.into()]);
     }
     if plan.setup.preparation.exclude_decided {
-        let help = "the method does not see what the analyst decided to be wild";
+        let help = "samples accepted as outliers are excluded from the method";
         rows.push(vec!["exclude_decided".into(), "true".into(), String::new(), "set".into(), help.into()]);
     }
     // Where the unit is that of the channel, it is known here.
     let known = rows.iter_mut().filter(|row| row[2] == "channel units" && !unit.is_empty());
     known.for_each(|row| unit.clone_into(&mut row[2]));
-    Table { head, rows, marks: Vec::new() }
+    Table { head, rows, ..Table::default() }
 }
 
 fn row(param: &Param, value: Value, default: &Settings, paper: Option<&Settings>) -> Vec<String> {

@@ -1,9 +1,10 @@
-//! The tables of flags and decisions, with their evidence.
+//! The tables of flags and decisions, with their evidence: a row for each run.
 
 use super::super::inspection::short;
 use super::Table;
 use crate::error::Result;
-use crate::session::flags::{Evidence, InRun, evidence};
+use crate::method::Direction;
+use crate::session::flags::{Evidence, evidence};
 use crate::session::table::{time_text, walk};
 use crate::session::{Analysed, Session};
 use crate::track::{Track, number_text};
@@ -11,17 +12,25 @@ use crate::track::{Track, number_text};
 /// Rows of a table at most.
 const MOST: usize = 200;
 
-/// A table, and what it leaves out in words; empty when it has all.
-pub(super) type Flagged = (Table, String);
+/// A table of flags.
+#[derive(Debug)]
+pub(super) struct Flagged {
+    /// The rows that are listed.
+    pub(super) table: Table,
+    /// Samples in them.
+    pub(super) listed: usize,
+    /// Samples that are left out.
+    pub(super) more: usize,
+    /// Those of them that the analyst decided on.
+    pub(super) decided: usize,
+}
 
-/// One table for each channel: outliers, suspects and decisions by row.
+/// One table for each channel: outliers, suspects and decisions by row, the samples of a run in one row.
 ///
 /// # Errors
 /// When the input cannot be read again, or is no longer the one that was loaded.
 pub(super) fn tables(track: &Track, session: &Session, analysed: &Analysed) -> Result<Vec<Flagged>> {
-    let mut tables: Vec<Table> =
-        session.plans.iter().map(|_| Table { head: HEAD.to_vec(), ..Table::default() }).collect();
-    let mut rest = vec![(0_usize, 0_usize); session.plans.len()];
+    let mut lists: Vec<List> = session.plans.iter().map(|_| List::default()).collect();
     walk(track, session, analysed, |row, cells, channel| {
         let Some(position) = channel.position(row) else { return Ok(()) };
         // Samples that could not be judged are counted, not listed.
@@ -29,73 +38,162 @@ pub(super) fn tables(track: &Track, session: &Session, analysed: &Analysed) -> R
             return Ok(());
         }
         let Some(found) = evidence(session, channel, row, position) else { return Ok(()) };
-        let plan = channel.plan;
-        if tables[plan].rows.len() < MOST {
-            tables[plan].marks.push(found.mark.as_ref().and_then(crate::plot::state));
-            tables[plan].rows.push(cells_of(&found, time_text(track, row, cells)));
-        } else {
-            rest[plan].0 += 1;
-            rest[plan].1 += usize::from(found.decided);
-        }
+        lists[channel.plan].add(found, || time_text(track, row, cells));
         Ok(())
     })?;
-    Ok(tables.into_iter().zip(rest).map(|(table, rest)| (table, in_words(rest))).collect())
+    Ok(lists.into_iter().map(List::flagged).collect())
 }
 
-const HEAD: [(&str, bool); 12] = [
+/// The groups of a channel so far.
+#[derive(Default)]
+struct List {
+    groups: Vec<Group>,
+    more: usize,
+    decided: usize,
+}
+
+impl List {
+    fn add(&mut self, found: Evidence, time: impl FnOnce() -> String) {
+        let room = self.groups.len() < MOST;
+        match self.groups.last_mut() {
+            Some(group) if group.goes_on(&found) => group.add(found, time()),
+            _ if room => self.groups.push(Group::new(found, time())),
+            _ => {
+                self.more += 1;
+                self.decided += usize::from(found.decided);
+            }
+        }
+    }
+
+    fn flagged(self) -> Flagged {
+        let Self { groups, more, decided } = self;
+        let listed = groups.iter().map(|group| group.all.len()).sum();
+        let marks = groups.iter().map(|group| group.all[0].mark.as_ref().and_then(crate::plot::state)).collect();
+        let notes = groups.iter().map(|group| group.all[0].note.clone()).collect();
+        let rows = groups.iter().map(Group::cells).collect();
+        Flagged { table: Table { head: HEAD.to_vec(), rows, marks, notes }, listed, more, decided }
+    }
+}
+
+const HEAD: [(&str, bool); 9] = [
     ("row", true),
     ("time", true),
     ("raw", true),
-    ("verdict", false),
-    ("run", false),
-    ("expected", true),
-    ("tolerance", true),
+    ("expected ± tolerance", true),
     ("ratio", true),
+    ("verdict", false),
     ("forward, backward", false),
-    ("clean", true),
+    ("cleaned file", true),
     ("decided by", false),
-    ("note", false),
 ];
 
-fn cells_of(e: &Evidence, time: String) -> Vec<String> {
-    let run = match e.run {
-        None => String::new(),
-        Some(InRun { length: 1, .. }) => "isolated".into(),
-        Some(InRun { length, place, .. }) => format!("{place} of {length}"),
-    };
-    let number = |x: Option<f64>| x.map(short).unwrap_or_default();
-    let directions = [e.forward, e.backward].map(|d| d.map_or("", crate::method::Direction::word));
-    let directions = if directions == ["", ""] { String::new() } else { directions.join(", ") };
-    vec![
-        e.row.to_string(),
-        time,
-        number_text(e.raw),
-        e.verdict.word().to_owned(),
-        run,
-        number(e.expected),
-        number(e.tolerance),
-        e.ratio().map(|r| format!("{r:.2}")).unwrap_or_default(),
-        directions,
-        match (e.action(), e.clean) {
-            ("removed", _) => "removed".into(),
-            ("kept", _) => "kept".into(),
-            (_, clean) => number(clean),
-        },
-        match (&e.objected, e.decided) {
-            (Some(o), false) => format!("{}: {}", o.by, o.evidence),
-            _ => e.decided_by().to_owned(),
-        },
-        e.note.clone(),
-    ]
+/// Samples that follow each other in one run, and of which the same is said.
+struct Group {
+    all: Vec<Evidence>,
+    /// Times of the first and of the last.
+    times: (String, String),
 }
 
-fn in_words((more, decided): (usize, usize)) -> String {
+impl Group {
+    fn new(found: Evidence, time: String) -> Self {
+        Self { all: vec![found], times: (time.clone(), time) }
+    }
+
+    /// Whether a sample belongs to the same run and nothing else is said of it.
+    fn goes_on(&self, next: &Evidence) -> bool {
+        let said = |e: &Evidence| (e.verdict, e.decided, e.action(), e.run.map(|run| run.start));
+        let by = |e: &Evidence| e.objected.as_ref().map(|o| o.by);
+        self.all.last().is_some_and(|last| {
+            last.run.is_some() && said(last) == said(next) && by(last) == by(next) && last.note == next.note
+        })
+    }
+
+    fn add(&mut self, found: Evidence, time: String) {
+        self.times.1 = time;
+        self.all.push(found);
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let (first, last) = (&self.all[0], &self.all[self.all.len() - 1]);
+        let ratio = |e: &&Evidence| e.ratio().unwrap_or(0.0);
+        let worst = self.all.iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b))).unwrap_or(first);
+        let expected = match (worst.expected, worst.tolerance) {
+            (Some(p), Some(h)) => format!("{} ± {}", short(p), short(h)),
+            (Some(p), None) => short(p),
+            _ => String::new(),
+        };
+        vec![
+            span(&first.row.to_string(), &last.row.to_string()),
+            span(&self.times.0, &self.times.1),
+            self.range(|e| Some(e.raw), number_text),
+            expected,
+            worst.ratio().map(|r| format!("{r:.2}")).unwrap_or_default(),
+            self.verdict(),
+            self.directions(),
+            self.cleaned(),
+            match (&first.objected, first.decided) {
+                (Some(o), false) => format!("{}: {}", o.by, o.evidence),
+                _ => first.decided_by().to_owned(),
+            },
+        ]
+    }
+
+    /// The verdict, and what part of which run this is.
+    fn verdict(&self) -> String {
+        let (word, here) = (self.all[0].verdict.word(), self.all.len());
+        match self.all[0].run {
+            Some(run) if run.length == 1 => format!("{word}, isolated"),
+            Some(run) if run.length == here => format!("{word}, run of {here}"),
+            Some(run) => format!("{word}, {here} of a run of {}", run.length),
+            None => word.to_owned(),
+        }
+    }
+
+    fn directions(&self) -> String {
+        let of = |e: &Evidence| [e.forward, e.backward];
+        let first = of(&self.all[0]);
+        match first.map(|d| d.map_or("", Direction::word)) {
+            _ if self.all.iter().any(|e| of(e) != first) => "mixed".to_owned(),
+            ["", ""] => String::new(),
+            words => words.join(", "),
+        }
+    }
+
+    /// What the cleaned file has.
+    fn cleaned(&self) -> String {
+        match self.all[0].action() {
+            "repaired" => self.range(|e| e.clean, short),
+            other => other.to_owned(),
+        }
+    }
+
+    /// The value of the one sample, or the smallest and the largest.
+    fn range(&self, of: impl Fn(&Evidence) -> Option<f64>, text: impl Fn(f64) -> String) -> String {
+        let values = || self.all.iter().filter_map(&of);
+        let (low, high) = (values().reduce(f64::min), values().reduce(f64::max));
+        match (low, high) {
+            (Some(low), Some(high)) if low == high => text(low),
+            (Some(low), Some(high)) => format!("{} … {}", text(low), text(high)),
+            _ => String::new(),
+        }
+    }
+}
+
+fn span(first: &str, last: &str) -> String {
+    if first == last { first.to_owned() } else { format!("{first} to {last}") }
+}
+
+/// How much of a table is listed, and where the rest is; empty when all is. `file` is the table of flags beside the
+/// report.
+pub(super) fn in_words(flagged: &Flagged, file: Option<&str>) -> String {
+    let Flagged { listed, more, decided, .. } = *flagged;
     if more == 0 {
         return String::new();
     }
     let decided = if decided == 0 { String::new() } else { format!(" ({decided} of them decided by the analyst)") };
-    let all = MOST + more;
+    let place = file.map_or("not listed; `--flags FILE` writes all of them".to_owned(), |file| format!("in {file}"));
     format!(
-        "The first {MOST} of {all} are listed; the other {more}{decided} are in the table that `--flags FILE` writes."
+        "The first {listed} of {} flags and decisions are listed; the other {more}{decided} are {place}.",
+        listed + more
     )
 }

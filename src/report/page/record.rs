@@ -21,7 +21,7 @@ pub(super) fn outcome(summary: &Summary) -> String {
         (sum(|c| c.unchecked), "unchecked"),
         (sum(|c| c.filled), "filled"),
         (sum(|c| c.decisions), "decided by the analyst"),
-        (sum(|c| c.conflicts), "of those against the method"),
+        (sum(|c| c.conflicts), "of them contradicting the method"),
     ];
     for (count, what) in more.into_iter().filter(|(count, _)| *count > 0) {
         line.push_str(&format!(", {count} {what}"));
@@ -76,7 +76,7 @@ pub(super) fn columns(inspection: &Inspection) -> Table {
             of(&|f| short(f.noise_difference)),
         ]
     };
-    Table { head, rows: inspection.columns.iter().map(row).collect(), marks: Vec::new() }
+    Table { head, rows: inspection.columns.iter().map(row).collect(), ..Table::default() }
 }
 
 /// What could not be used, and what the loader remarked.

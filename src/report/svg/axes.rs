@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::super::html::escaped;
 use super::Size;
 use crate::plot::{TimeTicks, ValueLabels, View};
 use crate::track::{TimeAxis, without_signed_zero};
@@ -10,8 +11,8 @@ use crate::track::{TimeAxis, without_signed_zero};
 const LEFT: f64 = 62.0;
 /// Room right of it.
 const RIGHT: f64 = 12.0;
-/// Room above it.
-const TOP: f64 = 8.0;
+/// Room above it, for what the values are.
+const TOP: f64 = 20.0;
 /// Room below it.
 const BOTTOM: f64 = 24.0;
 /// Width of a character of the labels.
@@ -84,18 +85,10 @@ pub(super) fn c(value: f64) -> String {
 }
 
 /// The frame with its grid, ticks and labels.
-pub(super) fn draw(frame: Frame, time: &TimeAxis, out: &mut String) {
+pub(super) fn draw(frame: Frame, time: &TimeAxis, what: &str, out: &mut String) {
     let (left, top, width, height) = (frame.left(), frame.top(), frame.width(), frame.height());
-    let labels = ValueLabels::new(frame.y.0, frame.y.1, if height > 120.0 { 5 } else { 3 });
-    for (value, text) in &labels.ticks {
-        let y = frame.at(*value);
-        let _ = write!(out, r#"<path class="grid" d="M{} {}h{}"/>"#, c(left), c(y), c(width));
-        let _ = write!(out, r#"<text class="y" x="{}" y="{}">{text}</text>"#, c(left - 6.0), c(y + 3.5));
-    }
-    if !labels.note.is_empty() {
-        // What turns the labels into values stands above the first of them.
-        let _ = write!(out, r#"<text class="y" x="{}" y="{}">{}</text>"#, c(left - 6.0), c(top + 3.5), labels.note);
-    }
+    let _ = write!(out, r#"<text x="{}" y="{}">{}</text>"#, c(left), c(top - 7.0), escaped(what));
+    values(frame, out);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a picture has few columns")]
     let columns = (width / CHARACTER) as u16;
     let ticks = TimeTicks::new(time, frame.view, columns);
@@ -111,12 +104,26 @@ pub(super) fn draw(frame: Frame, time: &TimeAxis, out: &mut String) {
         }
     }
     let _ = write!(out, r#"<text class="u" x="{}" y="{}">{}</text>"#, c(last), c(base + 16.0), ticks.unit);
-    let _ = write!(
-        out,
-        r#"<rect class="frame" x="{}" y="{}" width="{}" height="{}"/>"#,
-        c(left),
-        c(top),
-        c(width),
-        c(height)
-    );
+    border(frame, out);
+}
+
+/// The grid and the labels of the values.
+pub(super) fn values(frame: Frame, out: &mut String) {
+    let (left, top, width, height) = (frame.left(), frame.top(), frame.width(), frame.height());
+    let labels = ValueLabels::new(frame.y.0, frame.y.1, if height > 120.0 { 5 } else { 3 });
+    for (value, text) in &labels.ticks {
+        let y = frame.at(*value);
+        let _ = write!(out, r#"<path class="grid" d="M{} {}h{}"/>"#, c(left), c(y), c(width));
+        let _ = write!(out, r#"<text class="y" x="{}" y="{}">{text}</text>"#, c(left - 6.0), c(y + 3.5));
+    }
+    if !labels.note.is_empty() {
+        // What turns the labels into values stands above the first of them.
+        let _ = write!(out, r#"<text class="y" x="{}" y="{}">{}</text>"#, c(left - 6.0), c(top + 3.5), labels.note);
+    }
+}
+
+/// The frame itself.
+pub(super) fn border(frame: Frame, out: &mut String) {
+    let (x, y, width, height) = (c(frame.left()), c(frame.top()), c(frame.width()), c(frame.height()));
+    let _ = write!(out, r#"<rect class="frame" x="{x}" y="{y}" width="{width}" height="{height}"/>"#);
 }

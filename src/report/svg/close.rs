@@ -1,30 +1,37 @@
-//! The largest wild points from near.
+//! The largest flags, close up.
 
-use super::picture::{of_trace, place};
+use super::picture::{all_or_kept, of_trace, place};
 use super::{Figure, Size, Subject};
-use crate::plot::{View, YFit};
+use crate::plot::View;
 use crate::session::Run;
 
-/// How many runs are shown.
-const MOST: usize = 6;
+/// How many events are shown.
+const MOST: usize = 12;
 /// Samples left and right of a run.
 const AROUND: usize = 25;
 
-/// Pictures of the runs with the largest residuals, in the order of the record.
-pub(super) fn largest(subject: &Subject<'_>) -> Vec<Figure> {
+/// Pictures of the events (isolated outliers and runs) with the largest residuals, in the order of the record, and how
+/// many of all they are; empty when they are all.
+pub(super) fn largest(subject: &Subject<'_>) -> (Vec<Figure>, String) {
     let size = |run: &Run| {
         let ratio = |i: usize| subject.drawn.ratio(&subject.series, i).map_or(0.0, f64::abs);
         (run.start..run.start + run.length).map(ratio).fold(0.0, f64::max)
     };
     let mut runs: Vec<(f64, &Run)> = subject.drawn.outcome.runs.iter().map(|run| (size(run), run)).collect();
-    // A record that all pictures show from near already needs none from nearer.
+    // A record that all pictures show close up already needs none closer.
     if subject.series.len() <= 4 * AROUND {
-        return Vec::new();
+        return (Vec::new(), String::new());
     }
+    let all = runs.len();
     runs.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.start.cmp(&b.1.start)));
     runs.truncate(MOST);
     runs.sort_by_key(|(_, run)| run.start);
-    runs.into_iter().map(|(ratio, run)| near(subject, run, ratio)).collect()
+    let words = if all > MOST {
+        format!("The {MOST} largest of {all} events (isolated outliers and runs), in the order of the record.")
+    } else {
+        String::new()
+    };
+    (runs.into_iter().map(|(ratio, run)| near(subject, run, ratio)).collect(), words)
 }
 
 fn near(subject: &Subject<'_>, run: &Run, ratio: f64) -> Figure {
@@ -38,7 +45,7 @@ fn near(subject: &Subject<'_>, run: &Run, ratio: f64) -> Figure {
     let (from, to) = (t[from], t[to]);
     let pad = if to > from { (to - from) * 0.01 } else { 0.5 };
     let view = View { from: from - pad, to: to + pad };
-    let svg = of_trace(subject, view, YFit::All, Size { width: 470, height: 190 }, true);
-    let ratio = if ratio > 0.0 { format!(", {ratio:.1} tolerances off") } else { String::new() };
+    let svg = of_trace(subject, view, all_or_kept(subject, view), Size { width: 470, height: 202 }, true);
+    let ratio = if ratio > 0.0 { format!(", {ratio:.1} tolerances from the expected value") } else { String::new() };
     Figure { caption: place(subject, run.start, run.length) + &ratio, svg, small: true }
 }

@@ -5,25 +5,57 @@ use std::fmt::Write as _;
 use super::axes::{self, Frame, c};
 use super::curve::{Along, area, line};
 use super::{Figure, Size, Subject, marks};
-use crate::plot::{Columns, Curve, Grid, Span, View, YFit};
+use crate::plot::{Columns, Curve, FlagState, Grid, Pyramid, Span, View, YFit, residual_top};
+use crate::stop::Stop;
 use crate::track::printable;
 
-const WIDE: u16 = 960;
+/// Width of a picture that takes the whole page.
+pub(super) const WIDE: u16 = 960;
 
-/// The whole record with all of its wild points in range.
+/// A scale that shows everything is taken up to this many times the range of the kept samples: a fill value would leave
+/// them a line.
+const MOST_RANGES: f64 = 20.0;
+
+/// The scale that shows everything in view; where some lie so far off that nothing else would be seen, that of the kept
+/// samples.
+pub(super) fn all_or_kept(subject: &Subject<'_>, view: View) -> YFit {
+    let kept = kept_or_robust(subject, view);
+    if is_far(subject, view, (YFit::All, kept)) { kept } else { YFit::All }
+}
+
+/// The scale of the kept samples, or of most of them where a few lie far off.
+fn kept_or_robust(subject: &Subject<'_>, view: View) -> YFit {
+    if is_far(subject, view, (YFit::Kept, YFit::Robust)) { YFit::Robust } else { YFit::Kept }
+}
+
+fn is_far(subject: &Subject<'_>, view: View, (wide, narrow): (YFit, YFit)) -> bool {
+    // Halves, so that the range of the largest doubles does not overflow.
+    let half = |fit: YFit| {
+        let (low, high) = subject.with_trace(|trace| fit.range(trace, view));
+        high * 0.5 - low * 0.5
+    };
+    half(wide) > MOST_RANGES * half(narrow)
+}
+
+/// The whole record with all of its flags in range, if that leaves the others their shape.
 pub(super) fn overview(subject: &Subject<'_>) -> Figure {
-    let size = Size { width: WIDE, height: 150 };
-    let caption = "Overview: the whole record, wild points to scale.".to_owned();
-    Figure { svg: of_trace(subject, subject.whole(), YFit::All, size, false), caption, small: false }
+    let size = Size { width: WIDE, height: 160 };
+    let fit = all_or_kept(subject, subject.whole());
+    let caption = match fit {
+        YFit::All => "Overview: the whole record, flags to scale.",
+        _ => "Overview: the whole record at the scale of the kept samples; flags far beyond it are arrows at the edge.",
+    };
+    Figure { svg: of_trace(subject, subject.whole(), fit, size, false), caption: caption.to_owned(), small: false }
 }
 
 /// The whole record at the scale of its kept samples, with band, repair and flags.
 pub(super) fn trace(subject: &Subject<'_>) -> Figure {
-    let size = Size { width: WIDE, height: 320 };
+    let size = Size { width: WIDE, height: 332 };
     let caption = "Trace at the scale of the kept samples: measured, expected with its tolerance, repaired. \
                    Arrows at the edge are flags beyond it."
         .to_owned();
-    Figure { svg: of_trace(subject, subject.whole(), YFit::Kept, size, true), caption, small: false }
+    let fit = kept_or_robust(subject, subject.whole());
+    Figure { svg: of_trace(subject, subject.whole(), fit, size, true), caption, small: false }
 }
 
 /// A picture of a part of the trace.
@@ -31,7 +63,7 @@ pub(super) fn of_trace(subject: &Subject<'_>, view: View, fit: YFit, size: Size,
     subject.with_trace(|trace| {
         let mut y = fit.range(trace, view);
         if layers && view != subject.whole() {
-            // From near, the band is what matters: it is in range.
+            // Close up, the band is what matters: it is in range.
             let band =
                 trace.band.as_ref().map_or(Span::EMPTY, |b| b.pyramid.span_over(b.span, view.positions(trace.axis)));
             y = if band.is_empty() { y } else { (y.0.min(band.low), y.1.max(band.high)) };
@@ -39,7 +71,7 @@ pub(super) fn of_trace(subject: &Subject<'_>, view: View, fit: YFit, size: Size,
         let frame = Frame { size, view, y };
         let columns = Columns::new(trace, grid(frame));
         let along = Along { axis: trace.axis, columns: &columns, frame, gap: trace.gap };
-        let mut out = begun(subject, &columns, frame);
+        let mut out = begun(subject, &columns, frame, &subject.channel);
         let mut path = |class: &str, d: String| {
             if !d.is_empty() {
                 let _ = write!(out, r#"<path class="{class}" d="{d}"/>"#);
@@ -65,47 +97,78 @@ pub(super) fn of_trace(subject: &Subject<'_>, view: View, fit: YFit, size: Size,
 }
 
 /// A picture with its gaps and axes, up to the curves, which are cut at its frame.
-fn begun(subject: &Subject<'_>, columns: &Columns, frame: Frame) -> String {
+fn begun(subject: &Subject<'_>, columns: &Columns, frame: Frame, what: &str) -> String {
     let mut out = open(frame.size);
     gaps(columns, frame, &mut out);
-    axes::draw(frame, subject.time, &mut out);
+    axes::draw(frame, subject.time, what, &mut out);
     out.push_str(&cut(frame));
     out
 }
 
-/// The residual in scales or tolerances, with the threshold on both sides.
+/// The unit of the residual.
+pub(super) fn unit(subject: &Subject<'_>) -> &'static str {
+    if subject.drawn.in_scales() { "sigma" } else { "tolerances" }
+}
+
+/// The residual before repair, with the threshold on both sides.
 pub(super) fn residual(subject: &Subject<'_>) -> Figure {
     let (d, series) = (&subject.drawn, &subject.series);
-    let size = Size { width: WIDE, height: 200 };
-    // The threshold lies between a quarter and half of the way up, as on the screen.
-    let top = 10.0 * (d.threshold / 2.5).log2().floor().exp2();
-    let top = if top.is_finite() && top > 0.0 { top } else { 10.0 };
-    let frame = Frame { size, view: subject.whole(), y: (-top, top) };
     let ratio = |i: usize| d.residual(series, i).map_or(Span::EMPTY, Span::at);
-    let svg = subject.with_trace(|trace| {
+    let at = |(i, state): (usize, _)| (series.t[i], d.residual(series, i).unwrap_or(0.0), state);
+    let flags: Vec<_> = subject.flags_in(&(0..series.len())).into_iter().map(at).collect();
+    let svg = of_residual(subject, &Curve { pyramid: &d.ratios, span: &ratio }, &flags);
+    let caption = format!(
+        "Residual before repair (measured - expected) in {}; the threshold is at the dashed lines ({}). A flag \
+         without an expected value is at 0.",
+        unit(subject),
+        super::super::inspection::short(d.threshold)
+    );
+    Figure { caption, svg, small: false }
+}
+
+/// The residual of what the cleaned file has.
+pub(super) fn residual_after(subject: &Subject<'_>) -> Figure {
+    let (d, series) = (&subject.drawn, &subject.series);
+    let after = |i: usize| {
+        let raw = d.residual(series, i)?;
+        match (d.hidden[i], d.outcome.fix(i)) {
+            (true, Some(fix)) => {
+                // The residual is a line in the value: its slope is the same for the repaired one.
+                let expected = *d.outcome.detection.judged.expected().get(i)?;
+                Some(raw * (fix - expected) / (series.y[i] - expected)).filter(|r| r.is_finite())
+            }
+            (true, None) => None,
+            (false, _) => Some(raw),
+        }
+    };
+    let span = |i: usize| after(i).map_or(Span::EMPTY, Span::at);
+    let pyramid = Pyramid::build_spans_unless(series.len(), span, &Stop::never()).unwrap_or_default();
+    let svg = of_residual(subject, &Curve { pyramid: &pyramid, span: &span }, &[]);
+    let caption = format!("Residual after repair, at the same scale, in {}. Removed values have none.", unit(subject));
+    Figure { caption, svg, small: false }
+}
+
+/// A picture of residuals.
+fn of_residual(subject: &Subject<'_>, curve: &Curve<'_>, flags: &[(f64, f64, FlagState)]) -> String {
+    let d = &subject.drawn;
+    let size = Size { width: WIDE, height: 212 };
+    // The threshold lies between a quarter and half of the way up, as on the screen.
+    let top = residual_top(d.threshold);
+    let frame = Frame { size, view: subject.whole(), y: (-top, top) };
+    subject.with_trace(|trace| {
         let columns = Columns::new(trace, grid(frame));
         let along = Along { axis: trace.axis, columns: &columns, frame, gap: trace.gap };
-        let mut out = begun(subject, &columns, frame);
-        let curve = Curve { pyramid: &d.ratios, span: &ratio };
-        let _ = write!(out, r#"<path class="raw" d="{}"/>"#, line(&along.vertices(&curve), frame));
+        let mut out = begun(subject, &columns, frame, &format!("residual [{}]", unit(subject)));
+        let _ = write!(out, r#"<path class="raw" d="{}"/>"#, line(&along.vertices(curve), frame));
         for threshold in [d.threshold, -d.threshold] {
             let y = frame.at(threshold);
             let _ = write!(out, r#"<path class="threshold" d="M{} {}h{}"/>"#, c(frame.left()), c(y), c(frame.width()));
         }
         out.push_str("</svg>");
-        let at = |(i, state): (usize, _)| (series.t[i], d.residual(series, i).unwrap_or(0.0), state);
-        let flags: Vec<_> = subject.flags_in(&columns.in_view()).into_iter().map(at).collect();
-        marks::draw(&flags, frame, &mut out);
+        marks::draw(flags, frame, &mut out);
         out.push_str("</svg>");
         out
-    });
-    let unit = if d.in_scales() { "scales" } else { "tolerances" };
-    let caption = format!(
-        "Residual (measured - expected) in {unit}; the dashed lines at {} flag. A flag without an expected value \
-         lies at 0.",
-        super::super::inspection::short(d.threshold)
-    );
-    Figure { caption, svg, small: false }
+    })
 }
 
 /// Where outliers go: a stroke from the flag to its new value.
@@ -156,7 +219,7 @@ fn gaps(columns: &Columns, frame: Frame, out: &mut String) {
     }
 }
 
-fn open(Size { width, height }: Size) -> String {
+pub(super) fn open(Size { width, height }: Size) -> String {
     format!(
         r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" role="img">"#
     )

@@ -19,7 +19,8 @@ fn figures_of(y: &[f64]) -> (Vec<Figure>, usize) {
     let analysed = Analysed::of(&session, &track, &Stop::never()).unwrap();
     let (index, samples, outcome) = &analysed.channels[0];
     let flagged = outcome.outliers.len();
-    (figures(&track, samples.series(&track.channels[*index], &track.time), outcome), flagged)
+    let channel = &track.channels[*index];
+    (figures(&track, channel, samples.series(channel, &track.time), outcome).figures, flagged)
 }
 
 /// A slow wave with `wild` samples 50 above it.
@@ -45,8 +46,8 @@ fn every_flag_has_its_mark_in_every_picture_of_the_whole_record() {
     }
     // At the scale of the kept samples all of them lie beyond the edge.
     assert_eq!(figures[1].svg.matches("mark beyond unreviewed").count(), 1);
-    assert!(figures[3..].iter().all(|f| f.small && count(&f.svg, "unreviewed") > 0));
-    assert_eq!(figures.len(), 3 + 6, "no more than six from near");
+    assert!(figures[5..].iter().all(|f| f.small && count(&f.svg, "unreviewed") > 0));
+    assert_eq!(figures.len(), 5 + 7, "each event close up: six isolated and a run");
 }
 
 #[test]
@@ -84,7 +85,8 @@ fn lines_break_where_samples_are_lost_and_the_stretch_is_shaded() {
     let session = Session::new(&track, LoadOptions::default(), &Setup::standard());
     let analysed = Analysed::of(&session, &track, &Stop::never()).unwrap();
     let (index, samples, outcome) = &analysed.channels[0];
-    let figures = figures(&track, samples.series(&track.channels[*index], &track.time), outcome);
+    let channel = &track.channels[*index];
+    let figures = figures(&track, channel, samples.series(channel, &track.time), outcome).figures;
     let overview = &figures[0].svg;
     let raw = overview.split("class=\"raw\" d=\"").nth(1).unwrap().split('"').next().unwrap();
     assert_eq!(raw.matches('M').count(), 2, "{raw}");
@@ -101,4 +103,31 @@ fn numbers_of_pictures_are_finite_for_any_record() {
             assert!(!figure.svg.contains("NaN") && !figure.svg.contains("inf"), "{}", figure.svg);
         }
     }
+}
+
+#[test]
+fn repair_takes_the_residual_inside_the_threshold() {
+    let (figures, _) = figures_of(&wave(400, &[70, 150, 240]));
+    let height = |figure: &Figure| {
+        let raw = figure.svg.split("class=\"raw\" d=\"").nth(1).unwrap().split('"').next().unwrap();
+        let ys = raw.split(['M', 'L', 'V']).filter_map(|part| part.split(' ').next_back()?.parse::<f64>().ok());
+        ys.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)))
+    };
+    // The middle of the frame is 0; wild points lie far above it before the repair, nothing does after it.
+    let (before, after) = (height(&figures[2]), height(&figures[3]));
+    assert!(before.0 < 20.0 && after.0 > 50.0, "{before:?} {after:?}");
+}
+
+#[test]
+fn of_many_events_the_largest_are_close_up_and_the_others_counted() {
+    let wild: Vec<usize> = (1..=20).map(|i| i * 30).collect();
+    let track = record(&wave(700, &wild));
+    let session = Session::new(&track, LoadOptions::default(), &Setup::standard());
+    let analysed = Analysed::of(&session, &track, &Stop::never()).unwrap();
+    let (index, samples, outcome) = &analysed.channels[0];
+    let channel = &track.channels[*index];
+    let pictures = figures(&track, channel, samples.series(channel, &track.time), outcome);
+    let events = outcome.runs.len();
+    assert!(events >= 20 && pictures.figures.len() == 5 + 12, "{events} events");
+    assert!(pictures.close.starts_with(&format!("The 12 largest of {events} events")), "{}", pictures.close);
 }

@@ -37,7 +37,32 @@ impl Default for Screen {
     }
 }
 
-const KEYS: [&str; 6] = ["glyphs", "color", "mouse", "auto_advance", "esc_timeout_ms", "fps"];
+/// A key of `[screen]`.
+#[derive(Debug)]
+pub struct Setting {
+    /// Its name.
+    pub name: &'static str,
+    /// Its values.
+    pub values: &'static str,
+    /// What holds without it.
+    pub default: &'static str,
+    /// What it is for.
+    pub about: &'static str,
+}
+
+const fn setting(name: &'static str, values: &'static str, default: &'static str, about: &'static str) -> Setting {
+    Setting { name, values, default, about }
+}
+
+/// The keys of `[screen]`.
+pub static SETTINGS: [Setting; 6] = [
+    setting("glyphs", "auto, unicode, braille, ascii", "auto", "the characters of the plots"),
+    setting("color", "auto, never, 16, 256, true", "auto", "the number of colours"),
+    setting("mouse", "true, false", "true", "whether the program uses the mouse"),
+    setting("auto_advance", "true, false", "true", "whether a decision goes to the next flag"),
+    setting("esc_timeout_ms", "1 to 2000", "30", "wait after Esc for the rest of a key; more on a slow connection"),
+    setting("fps", "1 to 120", "30", "frames a second at most; fewer on a slow connection"),
+];
 
 const GLYPHS: [(&str, Option<Glyphs>); 4] = [
     ("auto", None),
@@ -69,7 +94,7 @@ pub(super) fn read(table: &DeTable<'_>, faults: &mut Vec<Fault>) -> Screen {
                 let fps = number(name, value, 1..=120, faults).and_then(|n| u32::try_from(n).ok());
                 screen.fps = fps.unwrap_or(screen.fps);
             }
-            _ => faults.push(unknown(&span, name, "setting of the screen", &KEYS)),
+            _ => faults.push(unknown(&span, name, "setting of the screen", &SETTINGS.each_ref().map(|s| s.name))),
         }
     }
     screen
@@ -140,7 +165,7 @@ mod tests {
     #[test]
     fn every_setting_is_read() {
         let text = "[screen]\nglyphs = \"ascii\"\ncolor = 256\nmouse = false\nauto_advance = false\nesc_timeout_ms = 80\nfps = 10\n";
-        assert!(KEYS.iter().all(|key| text.contains(key)));
+        assert!(SETTINGS.iter().all(|setting| text.contains(setting.name)));
         let read = Config::of_text(text, Path::new("config.toml")).unwrap().screen;
         let wanted = Screen {
             glyphs: Some(Glyphs::Ascii),
@@ -151,5 +176,16 @@ mod tests {
             fps: 10,
         };
         assert_eq!(read, wanted);
+    }
+
+    #[test]
+    fn the_defaults_that_are_told_are_those_that_hold() {
+        let told = |name: &str| SETTINGS.iter().find(|s| s.name == name).unwrap().default;
+        let Screen { mouse, auto_advance, esc_timeout_ms, fps, .. } = Screen::default();
+        assert_eq!(
+            [told("mouse"), told("auto_advance")],
+            [mouse, auto_advance].map(|b| if b { "true" } else { "false" })
+        );
+        assert_eq!((told("esc_timeout_ms"), told("fps")), (&*esc_timeout_ms.to_string(), &*fps.to_string()));
     }
 }

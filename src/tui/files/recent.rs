@@ -19,7 +19,7 @@ const LARGEST: u64 = 1 << 20;
 pub(super) fn read(list: &Path) -> (Vec<PathBuf>, Option<String>) {
     let mut text = String::new();
     let Ok(file) = std::fs::File::open(list) else { return (Vec::new(), None) };
-    let note = || Some(format!("{} is no list of recent files: it is left aside", list.display()));
+    let note = || Some(format!("{} is not a list of recent files: it is ignored", list.display()));
     match file.take(LARGEST + 1).read_to_string(&mut text) {
         Ok(n) if n as u64 <= LARGEST => {}
         _ => return (Vec::new(), note()),

@@ -32,7 +32,7 @@ fn content(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 fn all_outputs_appear_together() {
     let (track, session) = opened();
     let folder = tempfile::tempdir().unwrap();
-    let words = export(&track, &session, &all(folder.path(), "a.md"), false).unwrap();
+    let words = export(&track, &session, &all(folder.path(), "a.md"), false, &Byline::default()).unwrap();
     assert!(words.starts_with("wrote 6 files: "), "{words}");
     let names: Vec<String> = content(folder.path()).into_keys().collect();
     assert_eq!(names, ["a.clean.csv", "a.decisions.csv", "a.diagnostics.csv", "a.flags.csv", "a.md", "a.wild.toml"]);
@@ -40,10 +40,10 @@ fn all_outputs_appear_together() {
     std::fs::remove_file(folder.path().join("a.clean.csv")).unwrap();
     std::fs::write(folder.path().join("a.flags.csv"), "theirs").unwrap();
     let before = content(folder.path());
-    let refused = export(&track, &session, &all(folder.path(), "a.md"), false);
+    let refused = export(&track, &session, &all(folder.path(), "a.md"), false, &Byline::default());
     assert!(matches!(refused, Err(Error::Exists(_))), "{refused:?}");
     assert!(content(folder.path()) == before);
-    export(&track, &session, &all(folder.path(), "a.md"), true).unwrap();
+    export(&track, &session, &all(folder.path(), "a.md"), true, &Byline::default()).unwrap();
     assert_eq!(content(folder.path()).len(), 6);
 }
 
@@ -58,7 +58,7 @@ fn a_disk_that_fails_at_any_place_leaves_what_was_there() {
         }
         let before = content(folder.path());
         faults::fail_at(Some(fault));
-        let written = export(&track, &session, &all(folder.path(), "a.html"), true);
+        let written = export(&track, &session, &all(folder.path(), "a.html"), true, &Byline::default());
         let hit = faults::passed() > fault;
         faults::fail_at(None);
         if written.is_err() {

@@ -72,7 +72,7 @@ pub(super) fn search(folder: &Path, record: &str, track: &Track, session: &Sessi
     search.found.sort_by(|(a, _), (b, _)| (b.time, &b.path).cmp(&(a.time, &a.path)));
     if passed_over > 0 {
         let what = counted(passed_over, "older journal");
-        search.notes.push(format!("{what} of other records in {} were not looked at", shown(folder)));
+        search.notes.push(format!("{what} of other records in {} were not checked", shown(folder)));
     }
     search
 }

@@ -112,7 +112,7 @@ pub struct ExportRow {
     pub on: bool,
     /// Where.
     pub path: PathBuf,
-    /// True when such a file is there already.
+    /// True when such a file already exists.
     pub there: bool,
 }
 

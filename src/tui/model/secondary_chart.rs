@@ -56,7 +56,7 @@ impl LowerKind {
         match self {
             Self::Residual => "residual",
             Self::Histogram => "histogram",
-            Self::Steps => "steps of time",
+            Self::Steps => "time steps",
             Self::Consensus => "all methods",
             Self::Detectability => "detectability",
         }

@@ -34,6 +34,8 @@ impl Base {
 pub struct Role {
     /// Its name in the configuration.
     pub name: &'static str,
+    /// What it paints.
+    pub about: &'static str,
     of: fn(&mut Theme) -> &mut Style,
     /// True where the colour is that of the background.
     ground: bool,
@@ -41,34 +43,34 @@ pub struct Role {
 
 /// Every role of the theme.
 pub static ROLES: &[Role] = &[
-    fore("text", |t| &mut t.text),
-    fore("dim", |t| &mut t.dim),
-    fore("title", |t| &mut t.title),
-    fore("focus", |t| &mut t.focus),
-    fore("key", |t| &mut t.key),
-    fore("raw", |t| &mut t.raw),
-    fore("expected", |t| &mut t.expected),
-    fore("band", |t| &mut t.band),
-    fore("repaired", |t| &mut t.repaired),
-    fore("flag_unreviewed", |t| &mut t.flag_unreviewed),
-    fore("flag_accepted", |t| &mut t.flag_accepted),
-    fore("flag_rejected", |t| &mut t.flag_rejected),
-    fore("flag_by_hand", |t| &mut t.flag_by_hand),
-    fore("flag_suspect", |t| &mut t.flag_suspect),
-    fore("cursor", |t| &mut t.cursor),
-    fore("cursor_line", |t| &mut t.cursor_line),
-    Role { name: "selection", of: |t| &mut t.selection, ground: true },
-    Role { name: "gap", of: |t| &mut t.gap, ground: true },
-    fore("threshold", |t| &mut t.threshold),
-    fore("over", |t| &mut t.over),
-    fore("viewport", |t| &mut t.viewport),
-    fore("ok", |t| &mut t.ok),
-    fore("warning", |t| &mut t.warning),
-    fore("error", |t| &mut t.error),
+    fore("text", "plain text", |t| &mut t.text),
+    fore("dim", "axes, rules, help", |t| &mut t.dim),
+    fore("title", "the title line and the names of panels", |t| &mut t.title),
+    fore("focus", "the panel with the keyboard, and the active value", |t| &mut t.focus),
+    fore("key", "names of keys in the last line and in help", |t| &mut t.key),
+    fore("raw", "the curve of the kept samples", |t| &mut t.raw),
+    fore("expected", "the expected value", |t| &mut t.expected),
+    fore("band", "the edges of the tolerance band", |t| &mut t.band),
+    fore("repaired", "repaired values", |t| &mut t.repaired),
+    fore("flag_unreviewed", "a flag without a decision", |t| &mut t.flag_unreviewed),
+    fore("flag_accepted", "an accepted flag", |t| &mut t.flag_accepted),
+    fore("flag_rejected", "a rejected flag", |t| &mut t.flag_rejected),
+    fore("flag_by_hand", "a sample flagged by the analyst", |t| &mut t.flag_by_hand),
+    fore("flag_suspect", "a suspect", |t| &mut t.flag_suspect),
+    fore("cursor", "the cell under the cursor", |t| &mut t.cursor),
+    fore("cursor_line", "the line of the cursor", |t| &mut t.cursor_line),
+    Role { name: "selection", about: "selected cells (background)", of: |t| &mut t.selection, ground: true },
+    Role { name: "gap", about: "columns with lost samples (background)", of: |t| &mut t.gap, ground: true },
+    fore("threshold", "the threshold", |t| &mut t.threshold),
+    fore("over", "residuals beyond the threshold", |t| &mut t.over),
+    fore("viewport", "in the overview, the part that the trace shows", |t| &mut t.viewport),
+    fore("ok", "messages: done", |t| &mut t.ok),
+    fore("warning", "messages: caution", |t| &mut t.warning),
+    fore("error", "messages: error", |t| &mut t.error),
 ];
 
-const fn fore(name: &'static str, of: fn(&mut Theme) -> &mut Style) -> Role {
-    Role { name, of, ground: false }
+const fn fore(name: &'static str, about: &'static str, of: fn(&mut Theme) -> &mut Style) -> Role {
+    Role { name, about, of, ground: false }
 }
 
 /// What the user wants of the theme.

@@ -64,7 +64,7 @@ pub(super) fn y_command(model: &mut Model, text: &str) -> Result<Vec<Effect>, St
         ("robust", _) => YMode::Robust,
         ("fixed", _) => as_it_is(model),
         (_, [low, high]) if low.is_finite() && high.is_finite() && low < high => YMode::Fixed(*low, *high),
-        _ => return Err(format!("{}: say kept, all, robust, fixed, or LOW HIGH", printable(text))),
+        _ => return Err(format!("{}: expected kept, all, robust, fixed, or LOW HIGH", printable(text))),
     };
     set_y_fit(model, mode);
     Ok(Vec::new())
@@ -137,8 +137,8 @@ fn next_lower(model: &mut Model) {
     let words = match model.lower.kind {
         LowerKind::Residual => "residuals along the record",
         LowerKind::Histogram => "histogram of the residuals of the whole record",
-        LowerKind::Steps => "steps of time from sample to sample",
-        LowerKind::Consensus => "how many methods flag each sample",
+        LowerKind::Steps => "time steps between samples",
+        LowerKind::Consensus => "number of methods that flag each sample",
         LowerKind::Detectability => "share of wild points of known size that is found",
     };
     model.say(Tone::Done, format!("{words} · {} next picture", model.key(Action::NextLower)));
@@ -190,6 +190,6 @@ fn other_x(model: &mut Model) {
         (state.view, state.views) = (view, views);
     }
     model.by_number = !model.by_number;
-    let words = if model.by_number { "x is the number of the sample: gaps take no room" } else { "x is the time" };
+    let words = if model.by_number { "x axis: sample number (gaps take no room)" } else { "x axis: time" };
     model.say(Tone::Done, words);
 }

@@ -5,7 +5,7 @@ use super::super::message::Effect;
 use super::super::model::{Knob, Model, Tone};
 use super::{commit, set_up};
 use crate::check::Applied;
-use crate::error::on_one_line;
+use crate::error::{on_one_line, one_of};
 use crate::session::{Edit, Preparation, Setup, Suggestion, parse_period, position_check, suggestions};
 use crate::track::printable;
 
@@ -36,9 +36,9 @@ fn take_suggestions(model: &mut Model) -> Vec<Effect> {
     let offered = offered(model);
     if offered.is_empty() {
         let words = if model.plan().setup.preparation.is_empty() {
-            "this channel suggests no check: no value that repeats far off, no stuck stretch, no period"
+            "no check is suggested for this channel: no fill value, no stuck stretch, no period"
         } else {
-            "all that this channel suggests is done already"
+            "everything suggested for this channel is already set"
         };
         model.say(Tone::Warning, words);
         return Vec::new();
@@ -53,8 +53,10 @@ fn take_suggestions(model: &mut Model) -> Vec<Effect> {
 fn switch_all(model: &mut Model) -> Vec<Effect> {
     let mut preparation = model.plan().setup.preparation.clone();
     if preparation.checks.is_empty() {
-        let words =
-            format!("no check yet: :check makes one, {} those of the record", model.key(Action::SuggestedChecks));
+        let words = format!(
+            "no checks yet: :check adds one, {} adds those suggested for the record",
+            model.key(Action::SuggestedChecks)
+        );
         model.say(Tone::Warning, words);
         return Vec::new();
     }
@@ -86,9 +88,9 @@ pub(super) fn step(model: &mut Model, knob: Knob, on: bool) -> Vec<Effect> {
         Knob::ExcludeDecided => {
             preparation.exclude_decided = on;
             if on {
-                "what you decided to be wild is kept from the method"
+                "samples accepted as outliers are excluded from the method"
             } else {
-                "the method sees every sample, whatever you decided"
+                "the method sees every sample"
             }
             .to_owned()
         }
@@ -126,7 +128,9 @@ pub(super) fn add(model: &mut Model, text: &str) -> Result<Vec<Effect>, String> 
     let check = Applied::parse(text).map_err(|e| on_one_line(&e))?;
     for name in &check.channels {
         if model.track.beside(model.channel(), name).is_none() {
-            return Err(format!("{}: there is no such channel", printable(name)));
+            let names: Vec<&str> = model.track.channels.iter().map(|c| c.name.as_str()).collect();
+            let hint = one_of("channels", name, &names);
+            return Err(format!("{}: there is no such channel; {}", printable(name), printable(&hint)));
         }
     }
     let words = printable(&format!("check {check}"));

@@ -9,7 +9,7 @@ use super::{
     Action, act, chart_actions, checks, command_line, detectability, dialog, files, jump, record, review, show, tune,
 };
 use crate::check::CHECKS;
-use crate::error::nearest;
+use crate::error::{nearest, one_of};
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
 use crate::session::{Preset, method_of_id};
@@ -39,8 +39,8 @@ pub static COMMANDS: &[Command] = &[
     command("w", "[NAME]", "save the session", |m, a| Ok(files::save(m, path(a), false, false))),
     command("w!", "[NAME]", "save the session over an existing file", |m, a| Ok(files::save(m, path(a), true, false))),
     command("wq|x", "[NAME]", "save the session and quit", |m, a| Ok(files::save(m, path(a), false, true))),
-    command("q", "", "quit; asks when something is not saved", |m, _| Ok(act(m, Action::Quit))),
-    command("q!", "", "quit and drop what is not saved", |_, _| Ok(vec![Effect::Quit])),
+    command("q", "", "quit; asks if there are unsaved changes", |m, _| Ok(act(m, Action::Quit))),
+    command("q!", "", "quit and discard unsaved changes", |_, _| Ok(vec![Effect::Quit])),
     command("saveas", "", "save the session under another name", |m, _| Ok(act(m, Action::SaveAs))),
     command("open", "[PATH]", "open a record or a session; without a path, from a list", |m, a| {
         Ok(match path(a) {
@@ -54,10 +54,8 @@ pub static COMMANDS: &[Command] = &[
     command("tune", "", "search settings of the method that find more on this record, 20 s at most", |m, _| {
         Ok(detectability::tune(m))
     }),
-    command("reload", "", "take in rows that were added to the record; every decision stays", |m, _| {
-        Ok(record::take_in(m))
-    }),
-    command("decisions", "[NAME]", "write the decisions as a table, also when the record is gone", |m, a| {
+    command("reload", "", "load rows that were added to the record; all decisions stay", |m, _| Ok(record::take_in(m))),
+    command("decisions", "[NAME]", "write the decisions as a table, even if the record is gone", |m, a| {
         let name = path(a).unwrap_or_else(|| files::beside(&m.track.source, OutputKind::Decisions.ending()));
         Ok(dialog::export_one(m, OutputKind::Decisions, name, false))
     }),
@@ -78,20 +76,20 @@ pub static COMMANDS: &[Command] = &[
         Ok(tune::use_method(m, method))
     }),
     command("repair", "ID", "choose the repair", tune::set_repair),
-    command("preset", "default|paper", "all parameters to their defaults, or to the paper's values", |m, a| match a {
+    command("preset", "default|paper", "all parameters to the defaults, or to the paper's values", |m, a| match a {
         "default" => Ok(tune::use_preset(m, Preset::Default)),
         "paper" => Ok(tune::use_preset(m, Preset::Paper)),
         other => Err(format!("{other}: presets are default and paper")),
     }),
-    command("check", "ID[:KEY=VALUE,...]", "make a check before the method", checks::add),
-    command("uncheck", "ID|all", "make a check no more", checks::take_away),
-    command("period", "P|off", "the period of a circular channel: 360, 24, 2pi", checks::set_period),
-    command("position", "LAT,LON[,HEIGHT]", "channels that are one position, checked for its speed", checks::position),
+    command("check", "ID[:KEY=VALUE,...]", "add a check before the method", checks::add),
+    command("uncheck", "ID|all", "remove a check", checks::take_away),
+    command("period", "P|off", "period of a circular channel: 360, 24, 2pi", checks::set_period),
+    command("position", "LAT,LON[,HEIGHT]", "check the speed of a position (two or three channels)", checks::position),
     command("channel", "NAME", "show another channel", channel),
-    command("goto", "TIME|#ROW|...", "put the cursor on a time or a row, or what / takes", |m, a| {
+    command("goto", "TIME|#ROW|...", "move the cursor to a time, a row, or anything / accepts", |m, a| {
         jump::jump(m, a).map(|()| Vec::new())
     }),
-    command("auto-advance", "[on|off]", "whether a decision goes on to the next flag", |m, a| match a {
+    command("auto-advance", "[on|off]", "go to the next flag after a decision", |m, a| match a {
         "" => Ok(act(m, Action::AutoAdvance)),
         "on" | "off" => {
             review::set_auto_advance(m, a == "on");
@@ -106,9 +104,7 @@ pub static COMMANDS: &[Command] = &[
         "show these layers: raw, expected, band, repaired",
         chart_actions::layers_command,
     ),
-    command("command-line", "[CLEANED]", "copy the command that does the same without a screen", |m, a| {
-        Ok(command_line::show(m, path(a)))
-    }),
+    command("command-line", "[CLEANED]", "copy the equivalent command", |m, a| Ok(command_line::show(m, path(a)))),
     command("help", "", "keys and commands", |m, _| Ok(act(m, Action::Help))),
 ];
 
@@ -181,7 +177,7 @@ fn path(text: &str) -> Option<PathBuf> {
 
 fn set(model: &mut Model, rest: &str) -> Result<Vec<Effect>, String> {
     let Some((key, value)) = rest.split_once(['=', ' ']) else {
-        return Err(":set KEY VALUE, :set k 4.5 say".into());
+        return Err(":set KEY VALUE, for example :set k 4.5".into());
     };
     let effects = tune::set_key(model, key.trim(), value.trim())?;
     model.say(Tone::Done, format!("{} {} · {} undo", key.trim(), value.trim(), model.key(Action::Undo)));
@@ -194,7 +190,7 @@ fn channel(model: &mut Model, name: &str) -> Result<Vec<Effect>, String> {
         Some(plan) => Ok(show(model, plan)),
         None => {
             let names: Vec<&str> = plans.iter().map(|p| p.channel.as_str()).collect();
-            Err(format!("{}: no such channel; channels: {}", printable(name), printable(&names.join(", "))))
+            Err(format!("{}: no such channel; {}", printable(name), printable(&one_of("channels", name, &names))))
         }
     }
 }

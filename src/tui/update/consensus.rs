@@ -87,8 +87,8 @@ fn in_words(model: &Model, consensus: &Consensus) -> String {
 fn next_agreed(model: &mut Model) {
     let Some(consensus) = model.state().consensus.clone() else {
         let text = match model.polling {
-            Some(_) => "the methods are still being asked".into(),
-            None => format!("{} asks all methods first", model.key(Action::Consensus)),
+            Some(_) => "the methods are still running".into(),
+            None => format!("{} runs all methods first", model.key(Action::Consensus)),
         };
         model.say(Tone::Warning, text);
         return;

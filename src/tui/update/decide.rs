@@ -119,7 +119,7 @@ fn word(ruling: Option<Ruling>) -> &'static str {
     match ruling {
         Some(Ruling::Outlier) => "accepted",
         Some(Ruling::Normal) => "rejected",
-        None => "decision taken back:",
+        None => "decision cleared:",
     }
 }
 

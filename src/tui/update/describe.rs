@@ -37,7 +37,7 @@ fn together(parts: &[&Edit]) -> String {
 
 fn decisions(changes: &[Change]) -> String {
     let word = |change: &Change| match (&change.before, &change.after) {
-        (_, None) => "decision taken back",
+        (_, None) => "decision cleared",
         (Some(before), Some(after)) if before.ruling == after.ruling => "note",
         (_, Some(after)) => after.ruling.verdict().word(),
     };

@@ -9,8 +9,8 @@ use crate::track::{SECONDS_PER_DAY, printable};
 pub static FORMS: &[(&str, &str)] = &[
     ("1239.5  12:31:07", "the sample nearest to a time, written as in the record"),
     ("#533", "a data row of the file, from 1"),
-    ("+5s  -2m  +1h", "so much further on, or back"),
-    ("+100  -20", "so many samples further on, or back"),
+    ("+5s  -2m  +1h", "a duration forwards or backwards"),
+    ("+100  -20", "a number of samples forwards or backwards"),
     ("y>8  y<=-2.5", "the next sample by its value"),
     ("z>8", "the next by the size of its residual (panel 2)"),
     ("step>2", "the next by the size of the step to it"),

@@ -69,7 +69,7 @@ pub(super) fn pan(model: &mut Model, share: f64) {
     let view = model.state().view.panned(share).within(model.whole());
     // With a range open the cursor still moves, and the line is needed for what is selected.
     if view == model.state().view && model.review.anchor.is_none() {
-        model.say(Tone::Warning, "this is the end of the record");
+        model.say(Tone::Warning, "end of the record");
     }
     // Panning is no view to come back to: `Z` leads back to where it started from.
     let before = model.state().view;
@@ -111,7 +111,7 @@ pub(super) fn zoom_at(model: &mut Model, at: f64, factor: f64) {
     let narrowest = NARROWEST * nominal_step(model);
     let factor = if view.width() * factor < narrowest { narrowest / view.width() } else { factor };
     if (1.0..2.0).contains(&factor) {
-        model.say(Tone::Warning, "this is as near as it goes");
+        model.say(Tone::Warning, "maximum zoom");
         return;
     }
     // The first zoom of a wide view would leave a cursor at the edge at the edge: the sample is what is of interest.

@@ -249,7 +249,7 @@ fn entered(model: &mut Model, prompt: &mut Prompt) -> Result<Option<Vec<Effect>>
     match prompt.kind {
         PromptKind::Command => palette::enter(model, prompt),
         PromptKind::Jump => jump::jump(model, &text).map(|()| Some(Vec::new())),
-        PromptKind::SaveAs if text.trim().is_empty() => Err("a name is wanted".into()),
+        PromptKind::SaveAs if text.trim().is_empty() => Err("type a name".into()),
         PromptKind::SaveAs => Ok(Some(files::save(model, Some(text.trim().into()), false, false))),
         PromptKind::Value => tune::set_value(model, &text).map(Some),
         PromptKind::Note => Ok(Some(note::set(model, &text))),

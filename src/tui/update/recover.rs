@@ -50,7 +50,7 @@ pub(super) fn choose(model: &mut Model, mut merging: Merging, key: KeyEvent) -> 
             merging.at = all;
         }
         _ if gives_up(key) => {
-            model.say(Tone::Done, "nothing was taken in");
+            model.say(Tone::Done, "nothing was restored");
             offer(model, merging.offered);
             return Vec::new();
         }

@@ -114,10 +114,10 @@ pub(super) fn neighbour(model: &Model, forward: bool, stops: Stops) -> Option<(u
 fn go(model: &mut Model, forward: bool, stops: Stops) {
     let Some((position, wrapped)) = neighbour(model, forward, stops) else {
         let text = match (model.state().queue.is_empty(), stops) {
-            (_, Stops::Conflicts) => "no decision is against what the method says now".to_owned(),
+            (_, Stops::Conflicts) => "no decision contradicts the method".to_owned(),
             (true, _) => "no flags under these settings".into(),
-            (false, Stops::Undecided) => "every flag has been decided on".into(),
-            (false, Stops::Suspects) => "no suspect that nobody decided on".into(),
+            (false, Stops::Undecided) => "every flag is decided".into(),
+            (false, Stops::Suspects) => "no undecided suspect".into(),
             (false, Stops::Flags) => {
                 format!("no flags, only suspects: {} goes to the next", model.key(Action::NextSuspect))
             }
@@ -168,6 +168,6 @@ fn rearrange(model: &mut Model) {
 /// Whether a decision goes on to the next flag.
 pub(super) fn set_auto_advance(model: &mut Model, on: bool) {
     model.review.auto_advance = on;
-    let words = if on { "goes on to the next flag" } else { "stays where it is; n goes on" };
+    let words = if on { "goes to the next flag" } else { "stays; n goes to the next flag" };
     model.say(Tone::Done, format!("auto-advance {}: a decision {words}", if on { "on" } else { "off" }));
 }

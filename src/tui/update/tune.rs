@@ -56,7 +56,7 @@ pub(super) fn more_flags(before: &Outcome, after: &Outcome) -> Option<String> {
     });
     let alone = knob_between(old, new).is_some_and(|(knob, ..)| knob == key);
     (up && alone).then(|| {
-        format!("{more} more flagged with a larger {key}: what it lets into the model changes what is expected next")
+        format!("{more} more flagged with a larger {key}: accepted samples change the model and so what it expects")
     })
 }
 
@@ -280,7 +280,7 @@ pub(super) fn take_suggestion(model: &mut Model) -> Vec<Effect> {
                 model.say(
                     Tone::Done,
                     format!(
-                        "looking along {} for a threshold; {} again takes it",
+                        "searching {} for a threshold; press {} again to use it",
                         param.key,
                         model.key(Action::Suggested)
                     ),
@@ -304,7 +304,7 @@ pub(super) fn take_suggestion(model: &mut Model) -> Vec<Effect> {
             effects
         }
         Threshold::None { no_suggestion } => {
-            model.say(Tone::Warning, format!("no threshold is suggested: {no_suggestion}"));
+            model.say(Tone::Warning, format!("no threshold suggested: {no_suggestion}"));
             Vec::new()
         }
     }

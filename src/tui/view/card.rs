@@ -89,7 +89,7 @@ fn heading_words(model: &Model, mark: Option<&Mark>) -> Vec<Span<'static>> {
         spans.push(Span::styled(word, theme.flag(state)));
     }
     if mark.is_some_and(Mark::conflict) {
-        spans.push(Span::styled("! the method now says otherwise  ", theme.warning));
+        spans.push(Span::styled("! contradicts the method  ", theme.warning));
     }
     if let Some(who) = compare::who(model, model.state().cursor) {
         spans.push(Span::styled(format!("{who}  "), theme.title));
@@ -110,7 +110,7 @@ fn heading_words(model: &Model, mark: Option<&Mark>) -> Vec<Span<'static>> {
 fn why(model: &Model) -> Option<String> {
     let row = model.series().row_of(model.state().cursor).and_then(|r| u32::try_from(r).ok())?;
     if let Some((_, _, note)) = model.review.waiting.as_ref().filter(|(p, r, _)| (*p, *r) == (model.shown, row)) {
-        return Some(format!("note that waits for a decision: {}", printable(note)));
+        return Some(format!("note for the next decision: {}", printable(note)));
     }
     let decision = model.plan().decisions.get(row)?;
     let note = printable(&decision.note);
@@ -204,8 +204,8 @@ fn judged(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>, nar
     if let Some(run) = drawn.outcome.run(i) {
         match run.length {
             1 => said.push("  isolated".into()),
-            n if narrow => said.push(format!("  patch {}/{n}", i - run.start + 1)),
-            n => said.push(format!("  {} of a patch of {n}", i - run.start + 1)),
+            n if narrow => said.push(format!("  run {}/{n}", i - run.start + 1)),
+            n => said.push(format!("  {} of a run of {n}", i - run.start + 1)),
         }
     }
     let outcome = written(model, drawn, series, i, mark, narrow);
@@ -271,7 +271,7 @@ fn remarks(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) ->
     if let Some(drawn) = &model.state().drawn {
         let restarts = drawn.outcome.detection.judged.restarts();
         if restarts.iter().any(|r| r.at == i) {
-            let text = " started again here: a change of the trajectory, or a long patch";
+            let text = " the model restarted here: a manoeuvre, or a long run of outliers";
             spans.push(Span::styled(text, theme.warning));
         }
     }

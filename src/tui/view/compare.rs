@@ -35,7 +35,7 @@ pub(super) fn who(model: &Model, position: usize) -> Option<&'static str> {
 /// Rows for the parameter panel: the counts, and what A has otherwise.
 pub(super) fn rows(model: &Model) -> Option<Vec<String>> {
     let pinned = model.state().pinned.as_deref()?;
-    let mut rows = vec![String::new(), "A is pinned; g b goes back to it".to_owned()];
+    let mut rows = vec![String::new(), "A is pinned; g b returns to it".to_owned()];
     if let Some(sides) = &pinned.sides {
         let [a, b, both] = sides.counts().map(thousands);
         rows.push(format!("A only {a}   B only {b}   both {both}"));
@@ -132,7 +132,7 @@ pub(super) fn consensus_words(model: &Model) -> Vec<Span<'static>> {
     let (theme, state) = (&model.theme, model.state());
     if let Some(polling) = model.polling.as_ref().filter(|p| p.plan == model.shown) {
         let text = format!(
-            "asking the methods: {} of {} have answered ({} stops)  ",
+            "running all methods: {} of {} done ({} stops)  ",
             polling.done,
             polling.of,
             model.key(Action::Back)
@@ -140,14 +140,15 @@ pub(super) fn consensus_words(model: &Model) -> Vec<Span<'static>> {
         return vec![Span::styled(text, theme.warning)];
     }
     let Some(consensus) = state.consensus.as_deref() else {
-        return vec![Span::styled("nobody has been asked: C twice asks all methods  ", theme.warning)];
+        return vec![Span::styled("not computed: press C twice to run all methods  ", theme.warning)];
     };
     let ballot = &consensus.ballot;
-    let text = format!("how many flag a sample, half is {}  ", ballot.half());
-    let mut words = vec![Span::styled(text, theme.dim)];
     let (votes, of) = (ballot.votes(state.cursor), ballot.methods());
     let style = if votes >= ballot.half() { theme.over } else { theme.dim };
-    words.push(Span::styled(format!("here {votes} of {of}  "), style));
+    let mut words = vec![
+        Span::styled(format!("{votes} of {of} methods agree here"), style),
+        Span::styled(format!(" (majority {})  ", ballot.half()), theme.dim),
+    ];
     if !consensus.left_out.is_empty() {
         let ids: Vec<&str> = consensus.left_out.iter().map(|(id, _)| *id).collect();
         words.push(Span::styled(format!("without {}  ", ids.join(", ")), theme.dim));

@@ -25,8 +25,8 @@ pub(super) fn draw(model: &Model, dialog: &Dialog, area: Rect, buffer: &mut Buff
             let name = fit(&printable(&request.source.name()), 40);
             let path = model.file.clone().unwrap_or_else(|| super::super::update::default_session(&model.track.source));
             let path = end_of(&printable(&path.display().to_string()), 38);
-            let (save, drop) = (format!("save to {path}, then open it"), format!("drop them and open {name}"));
-            let first = "The session has changes that are not saved.";
+            let (save, drop) = (format!("save to {path}, then open it"), format!("discard them and open {name}"));
+            let first = "The session has unsaved changes.";
             question(model, "not saved", first, &[("w", &save), ("d", &drop), ("Esc", "stay")], area, buffer);
         }
         Dialog::Over(Over { path, .. }) => {
@@ -35,7 +35,7 @@ pub(super) fn draw(model: &Model, dialog: &Dialog, area: Rect, buffer: &mut Buff
             let first = if model.file.as_ref() == Some(path) {
                 format!("{name} has changed since it was read or saved here.")
             } else {
-                format!("{name} is there already.")
+                format!("{name} already exists.")
             };
             question(model, "overwrite?", &first, &[("o", "overwrite it"), ("Esc", "leave it")], area, buffer);
         }

@@ -122,12 +122,12 @@ fn overlay_items(overlay: &Overlay) -> Option<Vec<(String, &'static str)>> {
         Overlay::Prompt(_) => &[("Enter", "do it"), ("Esc", "leave it")],
         Overlay::CommandLine(..) => &[("any key", "goes back")],
         Overlay::Recover(found) if found.first().is_some_and(|f| f.missing.is_some()) => {
-            &[("d", "drop it"), ("Esc", "decide later")]
+            &[("d", "discard it"), ("Esc", "decide later")]
         }
-        Overlay::Recover(_) => &[("r", "take it back in"), ("d", "drop it"), ("Esc", "decide later")],
+        Overlay::Recover(_) => &[("r", "restore it"), ("d", "discard it"), ("Esc", "decide later")],
         Overlay::Merge(_) => &[("h", "keep what is here"), ("t", "take what is there"), ("Esc", "take nothing in")],
         Overlay::Files(dialog) => of_dialog(dialog),
-        Overlay::ConfirmQuit => &[("w", "save and quit"), ("d", "drop and quit"), ("Esc", "stay")],
+        Overlay::ConfirmQuit => &[("w", "save and quit"), ("d", "discard and quit"), ("Esc", "stay")],
     };
     Some(items.iter().map(|(k, w)| ((*k).to_owned(), *w)).collect())
 }
@@ -146,7 +146,7 @@ fn of_dialog(dialog: &Dialog) -> &'static [(&'static str, &'static str)] {
             &[("Enter", "take it"), ("Esc", "leave it")]
         }
         Dialog::Loader(_) => &[
-            ("Enter", "load so"),
+            ("Enter", "load"),
             ("↑↓", "choose"),
             ("←→", "change"),
             ("e", "type"),
@@ -157,7 +157,7 @@ fn of_dialog(dialog: &Dialog) -> &'static [(&'static str, &'static str)] {
             &[("Enter", "write"), ("↑↓", "choose"), ("Space", "on or off"), ("e", "edit the name"), ("Esc", "leave")]
         }
         Dialog::Waiting(_) => &[("Esc", "leave it")],
-        Dialog::Unsaved(_) => &[("w", "save, then open"), ("d", "drop, then open"), ("Esc", "stay")],
+        Dialog::Unsaved(_) => &[("w", "save, then open"), ("d", "discard, then open"), ("Esc", "stay")],
         Dialog::Over(_) => &[("o", "overwrite"), ("Esc", "leave it")],
     }
 }

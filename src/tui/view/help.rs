@@ -92,7 +92,7 @@ fn lines(model: &Model, filter: &str, width: usize) -> Vec<Line<'static>> {
     group("commands", COMMANDS.iter().map(command).collect());
     group("jumps after /", FORMS.iter().map(|(form, help)| plain((*form).to_owned(), help)).collect());
     if lines.is_empty() {
-        lines.push(Line::styled("nothing fits; fewer letters find more", model.theme.dim));
+        lines.push(Line::styled("no match; type fewer letters", model.theme.dim));
     }
     lines
 }
@@ -103,7 +103,7 @@ const MOUSE: &[(&str, &str)] = &[
     ("click in the queue", "go to the flag; a second click zooms to it"),
     ("click in a list", "choose the row; a second click does what Enter does, or changes the row"),
     ("click on a rail", "go to the first flag of the column; on the overview: go there"),
-    ("wheel", "zoom at the pointer; walk the queue or a list; turn the active parameter"),
+    ("wheel", "zoom at the pointer; walk the queue or a list; change the active parameter"),
     ("Shift-wheel", "pan"),
     ("drag", "select a range, as v does"),
     ("right drag", "move the record"),

@@ -15,7 +15,7 @@ pub(super) fn draw(model: &Model, at: usize, area: Rect, buffer: &mut Buffer) ->
     let theme = &model.theme;
     let (done, undone) = (model.history.done(), model.history.undone());
     let all = done.len() + undone.len();
-    let title = format!("journal: {} in force, {} taken back", done.len(), undone.len());
+    let title = format!("history: {} in effect, {} undone", done.len(), undone.len());
     let height = u16::try_from(all + 4).unwrap_or(u16::MAX).max(8);
     let inside = popup(model, &title, (76, height), area, buffer);
     let head = Line::styled("* is where the session is; Enter goes to a line, by undo or redo", theme.dim);
@@ -43,8 +43,8 @@ pub(super) fn draw(model: &Model, at: usize, area: Rect, buffer: &mut Buffer) ->
         };
         let number = format!("{chosen}{current}{line:>5} {separator} ");
         let room = usize::from(body.width).saturating_sub(number.chars().count());
-        let taken_back = if line > done.len() { "  (taken back)" } else { "" };
-        let words = fit(&format!("{words}{taken_back}"), room);
+        let mark = if line > done.len() { "  (undone)" } else { "" };
+        let words = fit(&format!("{words}{mark}"), room);
         let text = Line::from(vec![Span::styled(number, theme.dim), Span::styled(words, style)]);
         text.render(place, buffer);
         choices.push(Choice { place, index: line });

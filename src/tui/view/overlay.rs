@@ -220,7 +220,7 @@ fn command_line(model: &Model, line: &str, about: &str, area: Rect, buffer: &mut
         lines.extend(rows.into_iter().map(|row| Line::styled(row, model.theme.dim)));
     }
     let height = u16::try_from(lines.len() + 2).unwrap_or(u16::MAX);
-    let inside = popup(model, "the same without a screen", (area.width.min(100), height), area, buffer);
+    let inside = popup(model, "equivalent command", (area.width.min(100), height), area, buffer);
     rows(model, lines, 0, inside, buffer);
 }
 
@@ -232,11 +232,11 @@ fn confirm(model: &Model, area: Rect, buffer: &mut Buffer) {
     };
     let room = usize::from(inside.width).saturating_sub("w    save to  and quit".len());
     let lines = vec![
-        Line::styled("The session has changes that are not saved.", model.theme.warning),
+        Line::styled("The session has unsaved changes.", model.theme.warning),
         Line::default(),
         // The end of a path says most, and what the key does is after it.
         key("w", format!("save to {} and quit", end_of(&printable(&path.display().to_string()), room))),
-        key("d", "drop them and quit".into()),
+        key("d", "discard them and quit".into()),
         key("Esc", "stay".into()),
     ];
     rows(model, lines, 0, inside, buffer);

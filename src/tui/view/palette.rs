@@ -34,7 +34,7 @@ pub(super) fn draw(model: &Model, prompt: &Prompt, bottom: u16, area: Rect, buff
     clear(place, buffer);
     let chosen = rows.iter().find(|row| row.chosen);
     let words = match (prompt.kind, chosen) {
-        (PromptKind::Jump, _) => "where to; nothing typed repeats the jump before".to_owned(),
+        (PromptKind::Jump, _) => "where to? (empty: repeat the last jump)".to_owned(),
         // What the row has no room for.
         (_, Some(row)) => format!("{} of {}  {}", at + 1, rows.len(), row.help),
         (_, None) => format!("{} fit", rows.len()),

@@ -9,7 +9,7 @@ use super::super::action::{Action, Panel};
 use super::super::advice::{Advice, Step};
 use super::super::model::{Knob, Model};
 use super::super::update::{tune, value_text};
-use super::super::words::key;
+use super::super::words::{counted, key};
 use super::{clear, compare, fit, heading, thousands};
 use crate::param::Value;
 use crate::plot::Drawn;
@@ -172,7 +172,7 @@ fn advice_rows(model: &Model, advice: &Advice, width: usize) -> Vec<(String, boo
     let words = match sweep.threshold {
         Threshold::Suggested { suggestion, range } => {
             let f = key(&model.keys, Action::Suggested);
-            format!("{f} takes {} {suggestion}: {range} from {:.1} to {:.1}", sweep.key, range.from, range.to)
+            format!("{f} sets {} to {suggestion}: {range} from {:.1} to {:.1}", sweep.key, range.from, range.to)
         }
         Threshold::None { no_suggestion } => no_suggestion.to_string(),
     };
@@ -195,7 +195,7 @@ fn flagged(model: &Model, drawn: &Drawn) -> Vec<(String, bool)> {
 /// How many samples are what.
 fn counts(drawn: &Drawn, width: usize) -> Vec<(String, bool)> {
     let n = drawn.outcome.counts;
-    let mut lines = vec![format!("isolated {}, patches {}", n.isolated, n.patches)];
+    let mut lines = vec![format!("{} isolated, {}", n.isolated, counted(n.patches, "run"))];
     let mut rest = vec![format!("repaired {}, removed {}", n.repaired, n.removed)];
     let restarts = drawn.outcome.detection.judged.restarts().len();
     for (count, word) in

@@ -94,7 +94,7 @@ impl Columns {
 /// The names of the columns; the arrow says that there are flags above.
 fn names(model: &Model, above: bool, columns: &Columns) -> Line<'static> {
     let in_scales = model.state().drawn.as_ref().is_some_and(|d| d.in_scales());
-    let unit = if in_scales { "scales" } else { "ratio" };
+    let unit = if in_scales { "sigma" } else { "ratio" };
     let arrow = match (above, model.glyphs) {
         (false, _) => ' ',
         (true, Glyphs::Unicode) => '↑',

@@ -30,7 +30,7 @@ fn lines(model: &Model, found: &Found, more: usize) -> Vec<Line<'static>> {
     if let Some(session) = &found.session {
         let name = session.file_name().unwrap_or(session.as_os_str()).to_string_lossy().into_owned();
         let since = if found.session_changed { ", which has changed since" } else { "" };
-        note(format!("It went on from {}{since}.", printable(&name)));
+        note(format!("It continues {}{since}.", printable(&name)));
     }
     if found.added > 0 {
         note(format!(
@@ -40,20 +40,20 @@ fn lines(model: &Model, found: &Found, more: usize) -> Vec<Line<'static>> {
         ));
     }
     if !found.complete {
-        note("Its last line is torn: that change is lost.".into());
+        note("Its last line is incomplete: that change is lost.".into());
     }
     if let Some(channel) = &found.missing {
         note(format!("It is about {} too, which is not loaded:", printable(channel)));
-        note("open the record with all of its channels to take it back in.".into());
+        note("open the record with all of its channels to restore it.".into());
     }
     if more > 0 {
         note(format!("({more} more after this)"));
     }
     lines.push(Line::default());
     if found.missing.is_none() {
-        lines.push(key("r", "take it back in"));
+        lines.push(key("r", "restore it"));
     }
-    lines.push(key("d", "drop it for good"));
-    lines.push(key("Esc", "decide later: it is kept"));
+    lines.push(key("d", "discard it"));
+    lines.push(key("Esc", "decide later; it is kept"));
     lines
 }

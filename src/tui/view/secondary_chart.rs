@@ -35,7 +35,7 @@ impl Plots<'_> {
 
     fn unit(&self) -> &'static str {
         let in_scales = self.model.state().drawn.as_deref().is_some_and(Drawn::in_scales);
-        if in_scales { "scales" } else { "tolerances" }
+        if in_scales { "sigma" } else { "tolerances" }
     }
 
     fn residual(&self, area: Rect, buffer: &mut Buffer) -> Vec<Words<'static>> {
@@ -53,7 +53,7 @@ impl Plots<'_> {
         let top = worst.max(ResidualPlot::top_after(state.residual_top, threshold));
         let (theme, glyphs, cursor) = (&model.theme, model.glyphs, Some(state.cursor));
         let widget = ResidualPlot { columns, ratio: &ratio, pyramid, threshold, top, log, theme, glyphs, cursor };
-        let what = if widget.is_signed() { "in" } else { "worst per column in" };
+        let what = if widget.is_signed() { "in" } else { "largest per column, in" };
         let scale = if log { ", log scale" } else { "" };
         // How high it is stands beside it.
         let line = glyphs.threshold();

@@ -8,8 +8,13 @@ use ratatui::widgets::Widget;
 use super::super::chart_data::Picture;
 use super::super::model::Model;
 use super::super::plot::FlagState;
+use super::super::words::plural;
 use super::{clear, fit, thousands};
+use crate::score::Score;
 use crate::track::{Standing, printable};
+
+/// From so many columns on there is room for all words.
+const ROOMY: u16 = 100;
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
     clear(area, buffer);
@@ -65,7 +70,7 @@ fn right_side(model: &Model, width: u16) -> Line<'static> {
             let counts = drawn.outcome.counts;
             let truth = model.track.truth_for(&model.plan().channel).filter(|_| width >= 80);
             if let Some(score) = truth.and_then(|truth| Picture::of(model, model.shown).score(truth)) {
-                let text = format!("missed {} false {}  ", score.missed, score.false_alarms);
+                let text = truth_words(&score, width);
                 spans.push(Span::styled(text, theme.dim));
             }
             spans.push(Span::styled(format!("{} flagged", thousands(counts.flagged)), theme.title));
@@ -91,4 +96,10 @@ fn right_side(model: &Model, width: u16) -> Line<'static> {
     let unsaved = if model.unsaved() { "[+] " } else { "    " };
     spans.push(Span::styled(format!("{}{unsaved}", if old { '…' } else { ' ' }), theme.warning));
     Line::from(spans)
+}
+
+/// The score against the truth, in fewer words where the record's name would have to go for them.
+fn truth_words(score: &Score, width: u16) -> String {
+    let alarms = if width < ROOMY { "false".to_owned() } else { format!("false alarm{}", plural(score.false_alarms)) };
+    format!("truth: {} missed, {} {alarms}  ", score.missed, score.false_alarms)
 }

@@ -124,7 +124,7 @@ const NO_FLAG: &str = "no flag under the cursor";
 /// What the screen says of a decision.
 fn answer(screen: &vt100::Screen) -> Option<&'static str> {
     let text = screen.contents();
-    let words = [NO_FLAG, "accepted", "rejected", "decision taken back:"];
+    let words = [NO_FLAG, "accepted", "rejected", "decision cleared:"];
     words.into_iter().find(|words| text.contains(&format!(" {words}{}", if *words == NO_FLAG { "" } else { " row" })))
 }
 

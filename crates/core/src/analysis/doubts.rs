@@ -24,12 +24,12 @@ fn many_flagged(detection: &Detection, counts: &Counts) -> Option<String> {
     let has_floor = settings.params().iter().any(|p| p.key == FLOOR.key);
     let cause = match detection.calibration.as_deref() {
         _ if has_floor && !noise::by_record(settings) => {
-            "the scale takes the record for white noise on a smooth track, floor = record measures it"
+            "the scale assumes white noise on a smooth track; floor = record measures it instead"
         }
         Some(found) if found.held >= HOLDS => {
-            "the record holds values and catches up in jumps, which may be no wild points: look at the longest runs"
+            "the record holds values and then jumps, and the jumps may not be outliers: look at the longest runs"
         }
-        _ => "a large part is wild, or the channel moves faster than it is sampled: look at the longest runs",
+        _ => "a large part is outliers, or the channel moves faster than it is sampled: look at the longest runs",
     };
     Some(format!("{} % are flagged: {cause}", percent(flagged, judged)))
 }

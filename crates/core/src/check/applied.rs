@@ -72,7 +72,7 @@ impl Applied {
                     list.push_str(part.trim());
                 }
                 (None, None) => {
-                    let what = format!("--check {text}: {part} is no KEY=VALUE");
+                    let what = format!("--check {text}: {part} is not KEY=VALUE");
                     return Err(Error::usage(what, "write --check ID:KEY=VALUE,KEY=VALUE"));
                 }
             }
@@ -110,7 +110,7 @@ impl Applied {
 pub fn parse_all(texts: &[String]) -> Result<Vec<Applied>, Error> {
     if texts.iter().any(|text| text == "none") {
         if texts.len() > 1 {
-            return Err(Error::usage("--check none stands beside another check", "leave out one of them"));
+            return Err(Error::usage("--check none is given with another check", "leave out one of them"));
         }
         return Ok(Vec::new());
     }

@@ -18,7 +18,7 @@ pub const VALUES: &str = "values";
 
 static PARAMS: &[Param] = &[Param {
     key: VALUES,
-    help: "numbers that stand for no value; a sample that equals one exactly fails",
+    help: "fill values: a sample exactly equal to one fails",
     unit: "channel units",
     kind: Kind::Numbers,
     default: Value::Numbers(Numbers::NONE),
@@ -28,7 +28,7 @@ static PARAMS: &[Param] = &[Param {
 
 static ABOUT: About = About {
     id: ID,
-    help: "numbers that stand for no value (-9999, 1e20, 99.99), compared exactly",
+    help: "fill values (-9999, 1e20, 99.99), compared exactly",
     params: PARAMS,
     own: Own::Remove,
     channels: None,
@@ -55,7 +55,7 @@ impl Check for MissingValues {
 
     fn verify(&self, settings: &Settings) -> Result<(), Error> {
         if settings.numbers(VALUES).as_slice().is_empty() {
-            let what = "missing-values: without a value it objects to nothing";
+            let what = "missing-values: needs a value";
             return Err(Error::usage(what, "give the values: missing-values:values=-9999,1e20"));
         }
         Ok(())

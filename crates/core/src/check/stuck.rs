@@ -44,7 +44,7 @@ static PARAMS: &[Param] = &[
 
 static ABOUT: About = About {
     id: "stuck",
-    help: "the same value for more than so many samples, where the record otherwise moves",
+    help: "one value repeated for more than this many samples, where the record otherwise moves",
     params: PARAMS,
     own: Own::Remove,
     channels: None,

@@ -62,7 +62,7 @@ impl Check for ValidRange {
         let limits = [LOW, HIGH, SUSPECT_LOW, SUSPECT_HIGH].map(|key| number(settings, key));
         let [low, high, suspect_low, suspect_high] = limits;
         if limits.iter().all(Option::is_none) {
-            let what = "valid-range: without a limit it objects to nothing";
+            let what = "valid-range: needs a limit";
             return Err(Error::usage(what, "set low, high or both: valid-range:low=-40,high=60"));
         }
         // Each of them lies at or below the next.

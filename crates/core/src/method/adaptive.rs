@@ -38,9 +38,9 @@ const WINDOW: Param = Param {
 
 const HUBER_C: Param = Param {
     key: "huber_c",
-    help: "residuals beyond this many scales are held back from the scale; k = c gives the printed decision rule, \
+    help: "residuals beyond this many sigma are clipped in the scale; k = c gives the printed decision rule, \
            with about 10 % false alarms",
-    unit: "scales",
+    unit: "sigma",
     kind: Kind::Real { min: 0.5, max: 5.0, step: Step::Add(0.1) },
     default: Value::Real(1.5),
     paper: None,
@@ -49,7 +49,7 @@ const HUBER_C: Param = Param {
 
 const UPDATE: Param = Param {
     key: "update",
-    help: "winsor: residuals beyond c scales count as c scales; printed: eq. (34), biased low, it freezes (1.5 to 2 % \
+    help: "winsor: residuals beyond c sigma count as c sigma; printed: eq. (34), biased low, it freezes (1.5 to 2 % \
            false alarms on clean noise)",
     unit: "",
     kind: Kind::Choice(&["winsor", "printed"]),
@@ -64,9 +64,9 @@ static ABOUT: About = About {
     family: "real-time predictor",
     source: "[001] section 3, eqs. (27)-(34)",
     advice: "Noise that changes along the track, in real time: the limit follows the latest residuals. [001] finds it \
-             most effective on patches and best where isolated, constant and varying outliers mix; on its own \
+             most effective on runs and best where isolated, constant and varying outliers mix; on its own \
              experiment as we simulate it that does not hold. Wants window good samples before the scale is its own. \
-             A patch raises the scale it is judged by, so the end of a long one is missed.",
+             A run of outliers raises the scale it is judged by, so the end of a long one is missed.",
     params: PARAMS,
     own: Own::Expected,
     needs_rate: false,

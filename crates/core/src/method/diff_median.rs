@@ -27,7 +27,7 @@ const MODE: Param = Param {
 
 const MAX_RUN: Param = Param {
     key: "max_run",
-    help: "longest patch: the drift is taken out over 4 max_run + 1 samples",
+    help: "longest run: the drift is taken out over 4 max_run + 1 samples",
     unit: "samples",
     kind: Kind::Whole { min: 1, max: 1000, step: 1 },
     default: Value::Whole(20),
@@ -52,8 +52,8 @@ static ABOUT: About = About {
     name: "difference-assisted median",
     family: "difference",
     source: "[001] s.2, difference-assisted median",
-    advice: "Sees isolated wild points and patches of up to max_run samples on quiet, even data. Measured: 98 to 100 % \
-             of isolated ones, about 60 % of patches, under 0.5 % false. Many false ones where the noise changes \
+    advice: "Sees isolated wild points and runs of up to max_run samples on quiet, even data. Measured: 98 to 100 % \
+             of isolated ones, about 60 % of runs, under 0.5 % false. Many false ones where the noise changes \
              tenfold inside a segment; [001] calls it unstable, and in its plain mode it drifts. The window / 2 \
              samples at each end are not judged.",
     params: &PARAMS,

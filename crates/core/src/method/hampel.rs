@@ -28,8 +28,8 @@ static ABOUT: About = About {
     source: "beyond (Hampel 1974); the sliding median of [003]",
     advice: "Compares each sample with the median of its window; nothing that it flags changes what it says of others, \
              so k can be turned without a new computation. Robust against isolated wild points up to nearly half of a \
-             window. A window of 21 does not see patches of more than about a third of it: lengthen the window for \
-             long patches, shorten it for rapid manoeuvres.",
+             window. A window of 21 does not see runs of more than about a third of it: lengthen the window for \
+             long runs, shorten it for rapid manoeuvres.",
     params: &PARAMS,
     own: Own::Expected,
     needs_rate: false,

@@ -53,7 +53,7 @@ const MODEL: Param = Param {
 const TRACKING_INDEX: Param = Param {
     key: "tracking_index",
     help: "process noise per step times T^2 / sigma: larger follows manoeuvres; 0.1 opens the gate in two or three \
-           samples and flags the good ones behind a patch",
+           samples and flags the good ones behind a run",
     unit: "",
     kind: Kind::Real { min: 1e-6, max: 10.0, step: Step::Times(1.122) },
     default: Value::Real(0.02),
@@ -83,8 +83,8 @@ const ALPHA: Param = Param {
 
 const GATE_CAP: Param = Param {
     key: "gate_cap",
-    help: "while outliers follow each other the gate opens to at most so many times its width at the first (off: \
-           without limit)",
+    help: "while outliers follow each other the gate opens to at most this many times its width at the first (off: \
+           no limit)",
     unit: "",
     kind: Kind::RealOr { words: &["off"], min: 1.0, max: 1000.0 },
     default: Value::Real(2.0),
@@ -94,7 +94,7 @@ const GATE_CAP: Param = Param {
 
 const PATCH: Param = Param {
     key: "patch",
-    help: "runs of so many outliers and more are filled before the filter runs again; shorter ones keep the prediction",
+    help: "a run of at least this many outliers is filled before the filter runs again; a shorter one keeps the prediction",
     unit: "samples",
     kind: Kind::Whole { min: 1, max: 1000, step: 1 },
     default: Value::Whole(5),
@@ -104,7 +104,7 @@ const PATCH: Param = Param {
 
 const FILL: Param = Param {
     key: "fill",
-    help: "polynomial: least-squares cubic through 12 accepted samples on each side (0.5 sigma on patches of 5); \
+    help: "polynomial: least-squares cubic through 12 accepted samples on each side (0.5 sigma on runs of 5); \
            spline: natural cubic through 8 on each side (2.3 sigma)",
     unit: "",
     kind: Kind::Choice(&["polynomial", "spline"]),
@@ -120,10 +120,10 @@ static ABOUT: About = About {
     name: "Kalman innovation test with infill",
     family: "state estimation",
     source: "[004] steps 1-3, eqs. (1-1)-(1-6)",
-    advice: "Manoeuvring tracks with isolated outliers and patches, one channel or several that fail together (test = \
-             joint): [004] reports that both kinds are removed and that the fill keeps the filter on the patch. Wants \
-             four good samples to start and a dozen on each side of a patch. Outliers below c deviations are missed, \
-             and patches longer than the filter can coast over (about 8) are lost whole in a fifth of the cases.",
+    advice: "Manoeuvring tracks with isolated outliers and runs, one channel or several that fail together (test = \
+             joint): [004] reports that both kinds are removed and that the fill keeps the filter on the track through a run. Wants \
+             four good samples to start and a dozen on each side of a run. Outliers below c deviations are missed, \
+             and runs longer than the filter can coast over (about 8) are lost whole in a fifth of the cases.",
     params: PARAMS,
     own: Own::Expected,
     needs_rate: false,

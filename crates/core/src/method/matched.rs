@@ -32,7 +32,7 @@ const K: Param = shared::K.with_default(Value::Real(3.0));
 
 const WINDOW: Param = Param {
     key: "window",
-    help: "neighbours that are carried to each sample; patches up to about window/2 - 4 are seen",
+    help: "neighbours carried to each sample; runs up to about window/2 - 4 are seen",
     unit: "samples",
     kind: Kind::Whole { min: 4, max: 1001, step: 2 },
     default: Value::Whole(401),
@@ -59,7 +59,7 @@ static ABOUT: About = About {
     advice: "A channel with a second one that measures its rate, as range with Doppler: it separates what the \
              measurement did wrong from what the target did, so manoeuvres are never flagged. [001] finds it next to \
              adaptive, with the fewest false alarms, at a higher cost. Wants a clean rate over the whole segment; \
-             misses patches of more than about window/2 - 4 samples, and errors that both channels share.",
+             misses runs of more than about window/2 - 4 samples, and errors that both channels share.",
     params: PARAMS,
     own: Own::Expected,
     needs_rate: true,
@@ -117,7 +117,7 @@ impl Method for Matched {
     fn warnings(&self, settings: &Settings) -> Vec<String> {
         let window = settings.whole(WINDOW.key);
         if window < 11 {
-            vec![format!("window = {window}: patches of two or more samples are not seen")]
+            vec![format!("window = {window}: runs of two or more samples are not seen")]
         } else {
             Vec::new()
         }

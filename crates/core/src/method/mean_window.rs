@@ -27,7 +27,7 @@ static ABOUT: About = About {
     name: "sliding mean",
     family: shared::SLIDING_WINDOW,
     source: "[003] eq. (1), sliding mean",
-    advice: "Compares each sample with the mean of its window. [003] finds it as good as the median at windows of about 10 and the steadiest at 20; at 200 it misses isolated wild points. A mean follows the wild points in its window, so patches shift it: prefer median-window where there are patches.",
+    advice: "Compares each sample with the mean of its window. [003] finds it as good as the median at windows of about 10 and the steadiest at 20; at 200 it misses isolated wild points. A mean follows the wild points in its window, so runs shift it: prefer median-window where there are runs of outliers.",
     params: &PARAMS,
     own: Own::Expected,
     needs_rate: false,

@@ -37,8 +37,8 @@ static ABOUT: About = About {
     name: "odd-even extraction",
     family: shared::WHOLE_SEGMENT,
     source: "[001] s.2",
-    advice: "Deals the samples out to 2^m groups, so that a patch becomes a few isolated wild points in each, and \
-             judges each group by Wright's criterion. For much data with patches and wild points that vary with time, \
+    advice: "Deals the samples out to 2^m groups, so that a run becomes a few isolated wild points in each, and \
+             judges each group by Wright's criterion. For much data with runs and wild points that vary with time, \
              few of them isolated; it gives false alarms. Wants some 20 samples in every group at k = 3.",
     params: &PARAMS,
     own: Own::Remove,

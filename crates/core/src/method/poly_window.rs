@@ -39,8 +39,8 @@ static ABOUT: About = About {
     family: shared::SLIDING_WINDOW,
     source: "[003] s.2, polynomial",
     advice: "Fits a polynomial to each window and tests every sample of it. Follows manoeuvres better than a mean or a \
-             median; second to the sliding median of [003] on isolated wild points and on patches. At order 2 and \
-             k = 3 it wants 12 samples in a window to flag anything and about 21 in noise. A patch that fills a third \
+             median; second to the sliding median of [003] on isolated wild points and on runs. At order 2 and \
+             k = 3 it wants 12 samples in a window to flag anything and about 21 in noise. A run that fills a third \
              of the window bends the polynomial and is missed.",
     params: &PARAMS,
     own: Own::Expected,

@@ -5,8 +5,8 @@ use crate::param::{Choice, Kind, Param, Settings, Step, Value, always};
 /// The multiplier of the scale; sections give it their own default.
 pub const K: Param = Param {
     key: "k",
-    help: "tolerance in scales: flagged when |y - expected| reaches k * scale",
-    unit: "scales",
+    help: "threshold in sigma: flagged when |y - expected| reaches k * scale",
+    unit: "sigma",
     kind: Kind::Real { min: 0.5, max: 1000.0, step: Step::Add(0.1) },
     default: Value::Real(3.0),
     paper: None,
@@ -127,7 +127,7 @@ pub const DETREND: Param = Param {
 /// The bound on the scales of single windows.
 pub const NOISE_FLOOR: Param = Param {
     key: "noise_floor",
-    help: "pooled: no window's scale is below the median of the scales of all windows of the segment",
+    help: "pooled: no window's scale is below the median scale of all windows of the segment",
     unit: "",
     kind: Kind::Choice(&["pooled", "off"]),
     default: Value::Word("pooled"),
@@ -240,7 +240,7 @@ pub const START_LIMIT: f64 = 17.0;
 pub const C: Param = Param {
     key: "c",
     help: "gate: flagged when the innovation exceeds c of its deviations ([004]: 2 or 3, or 3 to 5)",
-    unit: "scales",
+    unit: "sigma",
     kind: Kind::Real { min: 0.5, max: 1000.0, step: Step::Add(0.1) },
     default: Value::Real(3.0),
     paper: None,

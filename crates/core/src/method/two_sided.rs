@@ -128,10 +128,10 @@ static ABOUT: About = About {
     name: "two-sided variable-order polynomial test",
     family: "two-sided",
     source: "[000] section 2, eqs. (1)-(5)",
-    advice: "Recorded tracks with isolated outliers and patches up to max_run samples, lost samples and steps: a step \
+    advice: "Recorded tracks with isolated outliers and runs up to max_run samples, lost samples and steps: a step \
              or manoeuvre is suspect, not removed. In [000] it beats either direction alone at every order, and \
-             variable order beats any fixed one. Wants start + a few samples on each side; a patch longer than \
-             max_run is taken for a real change (a restart is listed), and so is a patch at the end of a segment \
+             variable order beats any fixed one. Wants start + a few samples on each side; a run longer than \
+             max_run is taken for a real change (a restart is listed), and so is a run at the end of a segment \
              that only one direction reaches as an outlier.",
     params: PARAMS,
     own: Own::Remove,

@@ -232,7 +232,7 @@ mod tests {
     };
     const K: Param = Param {
         key: "k",
-        unit: "scales",
+        unit: "sigma",
         kind: Kind::Real { min: 0.5, max: 100.0, step: Step::Add(0.1) },
         default: Value::Real(3.0),
         ..WINDOW

@@ -54,9 +54,9 @@ impl Threshold {
 impl fmt::Display for NoSuggestion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::NothingFlagged => "nothing is flagged at the default and above",
-            Self::TooManyFlagged => "more than a tenth of the samples is flagged wherever the count stands still",
-            Self::NoGap => "there is no clear gap between noise and wild points",
+            Self::NothingFlagged => "nothing is flagged at the default or above",
+            Self::TooManyFlagged => "wherever the count is stable, more than a tenth of the samples is flagged",
+            Self::NoGap => "no clear gap between noise and outliers",
         })
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{Detection, Outcome, Setup};
 use crate::analysis::{Input, Rows};
 use crate::check::Applied;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, one_of};
 use crate::review::Decisions;
 use crate::stop::{Stop, Stopped};
 use crate::track::{Channel, Samples, Series, Track};
@@ -60,15 +60,13 @@ pub(super) fn companions(
     series: &Series<'_>,
     setup: &Setup,
 ) -> Result<Vec<Vec<Vec<f64>>>> {
+    let names = || track.channels.iter().map(|c| c.name.as_str()).collect::<Vec<_>>();
     let of_check = |applied: &Applied| {
         let values = |name: &String| match track.beside(channel, name) {
             Some(other) => Ok((0..series.len()).map(|i| other.value(series.row(i))).collect()),
             None => {
-                let names: Vec<&str> = track.channels.iter().map(|c| c.name.as_str()).collect();
-                Err(Error::usage(
-                    format!("{name}: there is no such channel for the check {}", applied.id()),
-                    format!("channels: {}", names.join(", ")),
-                ))
+                let what = format!("{name}: there is no such channel for the check {}", applied.id());
+                Err(Error::usage(what, one_of("channels", name, &names())))
             }
         };
         if applied.on { applied.channels.iter().map(values).collect() } else { Ok(Vec::new()) }
@@ -86,16 +84,16 @@ fn rate_channel<'a>(track: &'a Track, channel: &Channel, setup: &Setup) -> Resul
     if !setup.method.about().needs_rate {
         return Ok(None);
     }
-    let names = || track.channels.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", ");
+    let names: Vec<&str> = track.channels.iter().map(|c| c.name.as_str()).collect();
     let Some(name) = &setup.rate else {
         return Err(Error::usage(
             format!("{id} needs a channel that measures the rate of the first"),
-            format!("name it with --rate, or in the workbench at `rate` (3); channels: {}", names()),
+            format!("name it with --rate, or in the workbench at `rate` (3); channels: {}", names.join(", ")),
         ));
     };
     let found = track.beside(channel, name);
     found.map(Some).ok_or_else(|| {
-        Error::usage(format!("{name}: there is no such channel for the rate"), format!("channels: {}", names()))
+        Error::usage(format!("{name}: there is no such channel for the rate"), one_of("channels", name, &names))
     })
 }
 

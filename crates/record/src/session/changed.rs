@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::Write;
 
-use super::table::{time_text, write_row};
+use super::table::{CHANNEL, Column, TIME, column, names, time_text, write_row};
 use super::{Analysed, Place, Session};
 use crate::error::{Error, Result};
 use crate::method::Verdict;
@@ -11,7 +11,15 @@ use crate::repair::FILL_GAPS;
 use crate::track::{Cells, NewRow, Track, cell_text, escape_formula, for_each_row};
 
 /// The columns, in order.
-const HEADER: [&str; 7] = ["row", "time", "channel", "old", "new", "verdict", "by"];
+pub const CHANGED_COLUMNS: [Column; 7] = [
+    column("row", "number of the data row, from 1; empty for a new row"),
+    TIME,
+    CHANNEL,
+    column("old", "text of the cell in the record"),
+    column("new", "text of the cell in the cleaned file; empty when the value was removed"),
+    column("verdict", "`outlier` or `missing`"),
+    column("by", "id of the method or the check that flagged it, `analyst`, or `fill_gaps`"),
+];
 /// Who fills what is missing: the setting of the repair.
 const FILLED_BY: &str = FILL_GAPS.key;
 /// Who decides.
@@ -41,7 +49,7 @@ pub fn changed(track: &Track, session: &Session, analysed: &Analysed, out: &mut 
     let changes = analysed.changes(track);
     let reasons = reasons(track, session, analysed);
     let mut writer = csv::Writer::from_writer(out);
-    write_row(&mut writer, &HEADER)?;
+    write_row(&mut writer, &names(&CHANGED_COLUMNS))?;
     let (mut cells, mut rows) = (changes.cells.as_slice(), changes.rows.as_slice());
     for_each_row(track, |row, texts| {
         let mine = cells.iter().take_while(|c| c.row as usize == row).count();

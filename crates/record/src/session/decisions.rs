@@ -5,12 +5,19 @@ use std::io::Write;
 
 use super::Session;
 use super::save::known;
-use super::table::write_row;
+use super::table::{CHANNEL, Column, ROW, column, names, write_row};
 use crate::error::{Error, Result};
 use crate::track::{Track, escape_formula};
 
 /// The columns, in order.
-const HEADER: [&str; 6] = ["row", "time", "channel", "raw", "verdict", "note"];
+pub const DECISION_COLUMNS: [Column; 6] = [
+    ROW,
+    column("time", "time of the row, as the program knows it"),
+    CHANNEL,
+    column("raw", "measured value, as the program knows it"),
+    column("verdict", "`outlier` (accepted) or `normal` (rejected)"),
+    column("note", "note of the analyst"),
+];
 
 /// Writes the decisions as CSV: row (from 1), time and value as the program knows them, verdict and note.
 ///
@@ -18,7 +25,7 @@ const HEADER: [&str; 6] = ["row", "time", "channel", "raw", "verdict", "note"];
 /// [`Error::Io`] when the table cannot be written.
 pub fn decisions(track: &Track, session: &Session, out: &mut dyn Write) -> Result<()> {
     let mut writer = csv::Writer::from_writer(out);
-    write_row(&mut writer, &HEADER)?;
+    write_row(&mut writer, &names(&DECISION_COLUMNS))?;
     for plan in &session.plans {
         for (row, decision) in plan.decisions.iter() {
             let (time, value) = known(track, &plan.channel, row as usize);

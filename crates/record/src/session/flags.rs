@@ -5,35 +5,38 @@ use std::io::Write;
 use sha2::{Digest, Sha256};
 
 use super::cleaned::Hashing;
-use super::table::{Walk, cell, time_text, walk, write_row};
+use super::table::{CHANNEL, Column, ROW, TIME, Walk, cell, column, names, time_text, walk, write_row};
 use super::{Analysed, Mark, Objected, Run, Session};
 use crate::error::{Error, Result};
 use crate::method::{Direction, Verdict};
 use crate::track::{Track, escape_formula};
 
 /// The columns, in order.
-const HEADER: [&str; 17] = [
-    "row",
-    "time",
-    "channel",
-    "raw",
-    "verdict",
-    "kind",
-    "run_start",
-    "run_length",
-    "expected",
-    "tolerance",
-    "ratio",
-    "forward",
-    "backward",
-    "clean",
-    "action",
-    "decided_by",
-    "note",
+pub const COLUMNS: [Column; 17] = [
+    ROW,
+    TIME,
+    CHANNEL,
+    column("raw", "measured value"),
+    column("verdict", "verdict in effect: `outlier`, `suspect`, `normal` or `unchecked`"),
+    column("kind", "`isolated`, or `patch` for a run of two or more outliers"),
+    column("run_start", "row in which the run of outliers starts"),
+    column("run_length", "number of outliers in the run"),
+    column("expected", "value that the method expects"),
+    column("tolerance", "distance from the expected value at which a sample is flagged"),
+    column("ratio", "distance from the expected value, in tolerances"),
+    column("forward", "verdict of the extrapolation from before: `normal` or `abnormal`"),
+    column("backward", "verdict of the extrapolation from after"),
+    column("clean", "value in the cleaned file"),
+    column("action", "`repaired`, `removed` or `kept`"),
+    column("decided_by", "`analyst`, `check` or `method`"),
+    column("note", "note of the analyst"),
 ];
 
 /// The columns after those where a check is made before a method: who flagged the sample, and what a check found.
-const BY_CHECKS: [&str; 2] = ["by", "evidence"];
+pub const BY_CHECKS: [Column; 2] = [
+    column("by", "id of the method or the check that flagged the sample (only with checks)"),
+    column("evidence", "what the check found (only with checks)"),
+];
 
 /// Writes the audit table as CSV. Missing samples are in the diagnostics, filled or not.
 ///
@@ -42,8 +45,8 @@ const BY_CHECKS: [&str; 2] = ["by", "evidence"];
 pub fn flags(track: &Track, session: &Session, analysed: &Analysed, out: &mut dyn Write) -> Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     let checks = session.plans.iter().any(|p| p.setup.preparation.checks_anything());
-    let more: &[&str] = if checks { &BY_CHECKS } else { &[] };
-    write_row(&mut writer, &[&HEADER, more].concat())?;
+    let more: &[&str] = if checks { &names(&BY_CHECKS) } else { &[] };
+    write_row(&mut writer, &[&names(&COLUMNS), more].concat())?;
     walk(track, session, analysed, |row, cells, channel| {
         let fields = channel.position(row).and_then(|position| of_sample(session, channel, row, position));
         let Some((mut fields, by)) = fields else { return Ok(()) };

@@ -1,7 +1,7 @@
 //! Channels that are one position.
 
 use crate::check::{Applied, position};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, one_of};
 use crate::track::{Channel, Track};
 
 /// The check of the position of `names` (with commas between them), for `channel`, one of its channels; none for another
@@ -13,8 +13,8 @@ pub fn position_check(track: &Track, channel: &Channel, names: &str) -> Result<O
     let find = |name: &str| {
         track.beside(channel, name).ok_or_else(|| {
             let all: Vec<&str> = track.channels.iter().map(|c| c.name.as_str()).collect();
-            let what = format!("position {names}: there is no channel {name}");
-            Error::usage(what, format!("channels: {}", all.join(", ")))
+            let what = format!("position {names}: no such channel: {name}");
+            Error::usage(what, one_of("channels", name, &all))
         })
     };
     let channels: Vec<&Channel> = names.split(',').map(|name| find(name.trim())).collect::<Result<_>>()?;

@@ -7,6 +7,32 @@ use crate::error::{Error, Result};
 use crate::method::Verdict;
 use crate::track::{Cells, Channel, Series, Track, escape_formula, for_each_row};
 
+/// A column of a table: its name in the first line, and what its cells say.
+#[derive(Debug, Clone, Copy)]
+pub struct Column {
+    /// Its name.
+    pub name: &'static str,
+    /// What its cells say.
+    pub about: &'static str,
+}
+
+/// A column.
+#[must_use]
+pub const fn column(name: &'static str, about: &'static str) -> Column {
+    Column { name, about }
+}
+
+/// The names of columns, as the first line of a table has them.
+#[must_use]
+pub fn names<const N: usize>(columns: &[Column; N]) -> [&'static str; N] {
+    columns.map(|column| column.name)
+}
+
+/// The columns that most tables begin with.
+pub(super) const ROW: Column = column("row", "number of the data row, from 1");
+pub(super) const TIME: Column = column("time", "time of the row, as in the record");
+pub(super) const CHANNEL: Column = column("channel", "name of the channel");
+
 /// One channel of a result, walked row by row.
 #[derive(Debug)]
 pub struct Walk<'a> {

@@ -88,7 +88,7 @@ pub(crate) fn open_quote(path: &Path, quote: OpenQuote) -> Error {
         path: path.to_path_buf(),
         line: Some(quote.line),
         what: "a quoted cell starts here and does not end within 1000 lines or 1 MiB".into(),
-        help: "close the quote, or take it away; where quotes are ordinary characters, use --no-quotes".into(),
+        help: "close the quote or remove it; if quotes are ordinary characters, use --no-quotes".into(),
     }
 }
 

@@ -128,7 +128,7 @@ fn refuse_torn_decimals(head: &Head) -> Result<()> {
     let commas = head.layout.delimiter == Delimiter::Byte(b',') && head.reading.decimal_comma;
     if commas && head.layout.quote.is_none() {
         return Err(Error::usage(
-            "a comma cannot both part cells and begin decimals where there are no quotes",
+            "a comma cannot be both the field separator and the decimal comma where cells are not quoted",
             "leave one of --decimal-comma and --no-quotes out, or name another --delimiter",
         ));
     }
@@ -293,11 +293,11 @@ impl Understood {
             }
         }
         if body.tail.texts > 0 {
-            let (lines, are) = if body.tail.texts == 1 { ("line", "is no row") } else { ("lines", "are no rows") };
-            said.push(format!("{} {lines} of text below the rows {are}", body.tail.texts));
+            let (lines, are) = if body.tail.texts == 1 { ("line", "is") } else { ("lines", "are") };
+            said.push(format!("{} {lines} of text below the rows {are} not data", body.tail.texts));
         }
         if body.repeats > 0 {
-            said.push(format!("the header comes again among the rows ({} lines are no rows)", body.repeats));
+            said.push(format!("the header is repeated among the rows ({} lines are not data)", body.repeats));
         }
         said
     }
@@ -326,7 +326,7 @@ impl Understood {
             ));
         }
         if mended.newest_first {
-            track.notes.push("the newest row stands first: the record is read from its end".into());
+            track.notes.push("the newest row is first: the record is read from its end".into());
         }
         if mended.wraps > 0 {
             track.notes.push(format!("the counter of the time began again {}", times(mended.wraps)));
@@ -404,8 +404,8 @@ fn columns_of(
         if kind != ColumnKind::Number && roles.channels.as_ref().is_some_and(|c| c.contains(&index)) {
             let example = numbers.and_then(|n| n.unreadable.first.first()).map_or("nothing", |(_, what)| what);
             return Err(Error::usage(
-                format!("`{}` is no channel of numbers: it holds `{}`", printable(name), printable(example)),
-                "choose another channel, or tell what means \"no value\" in it",
+                format!("`{}` is not numeric: it holds `{}`", printable(name), printable(example)),
+                "choose another channel, or name the missing markers with --missing",
             ));
         }
         // Texts that could have stood where numbers had not begun are values of a column of texts.
@@ -431,7 +431,7 @@ fn check_truth(name: &str, numbers: &Numbers) -> Result<()> {
     match odd.or_else(|| numbers.unreadable.first.first().map(|(_, what)| what.clone())) {
         None => Ok(()),
         Some(odd) => Err(Error::usage(
-            format!("`{}` is no truth column: it holds {}", printable(name), printable(&odd)),
+            format!("`{}` is not a truth column: it holds {}", printable(name), printable(&odd)),
             "a truth column holds 1 for a real outlier and 0 for any other sample",
         )),
     }

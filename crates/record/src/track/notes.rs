@@ -64,7 +64,7 @@ pub(crate) fn column_of_commas(columns: &[Column], head: &Head) -> Option<usize>
 /// What to do about such a column.
 pub(crate) fn about_commas(name: &str) -> String {
     format!(
-        "`{}` holds numbers with commas: say --decimal-comma, or take the commas away where they part thousands",
+        "`{}` holds numbers with commas: use --decimal-comma, or remove the commas if they separate thousands",
         printable(name)
     )
 }
@@ -108,7 +108,7 @@ pub(crate) fn about_shape(track: &Track, head: &Head, told: bool) -> Vec<String>
         && timing::increases(head, 0)
     {
         notes.push(format!(
-            "time is the sample number; `{}` increases from row to row: if it is the time, say --time '#1'",
+            "time is the sample number; `{}` increases from row to row: if it is the time, use --time '#1'",
             printable(&first.name)
         ));
     }

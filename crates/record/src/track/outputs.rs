@@ -38,6 +38,8 @@ pub struct Outputs {
     dash: bool,
     /// What goes to standard output.
     printed: Option<File>,
+    /// True where everything is done but writing.
+    dry: bool,
 }
 
 #[derive(Debug)]
@@ -54,13 +56,19 @@ impl Outputs {
     #[must_use]
     pub fn new(force: bool, inputs: &[&Path]) -> Self {
         let inputs = inputs.iter().map(|path| Protected::new(path)).collect();
-        Self { force, inputs, staged: Vec::new(), dash: false, printed: None }
+        Self { force, inputs, staged: Vec::new(), dash: false, printed: None, dry: false }
     }
 
     /// The same where `-` means standard output, to which it is written with [`Outputs::commit`], after the files.
     #[must_use]
     pub fn or_standard_output(self) -> Self {
         Self { dash: true, ..self }
+    }
+
+    /// The same where nothing is written if `dry`: what would be an error is one all the same.
+    #[must_use]
+    pub fn dry(self, dry: bool) -> Self {
+        Self { dry, ..self }
     }
 
     /// Writes the content of the file `path` through `write`, packed where its name ends like that of a packed file. The file itself
@@ -83,6 +91,9 @@ impl Outputs {
     /// # Errors
     /// As [`Outputs::stage`], whatever the name.
     pub fn stage_columns(&mut self, path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+        if self.dry {
+            return self.rehearse(path, write);
+        }
         if self.dash && path == Path::new(DASH) {
             let folder = std::env::temp_dir();
             let file = tempfile::tempfile().map_err(Error::io("write to", &folder))?;
@@ -118,6 +129,16 @@ impl Outputs {
         point().and_then(|()| file.as_file().sync_all()).map_err(Error::io("write", path))?;
         self.staged.push(Staged { target, folder, file, existed: existing.is_some(), known });
         Ok(())
+    }
+
+    /// Checks an output and makes its content without writing it. A folder that is not there yet would be made.
+    fn rehearse(&self, path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        if !(self.dash && path == Path::new(DASH)) && folder.is_none_or(Path::exists) {
+            let (target, _) = self.place(path)?;
+            self.permit(path, &target)?;
+        }
+        write(&mut std::io::sink())
     }
 
     /// Gives all files their names. When one cannot get its name, or the names do not get to the disk, all are taken
@@ -173,8 +194,7 @@ impl Outputs {
         let target = match path.canonicalize() {
             Ok(existing) => existing,
             Err(_) => {
-                let name =
-                    path.file_name().ok_or_else(|| Error::input(path, "this names no file", "give a file name"))?;
+                let name = path.file_name().ok_or_else(|| Error::input(path, "not a file name", "give a file name"))?;
                 let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
                 folder.canonicalize().map_err(Error::io("write to the folder", folder))?.join(name)
             }
@@ -195,7 +215,7 @@ impl Outputs {
         }
         match existing {
             Some(found) if !found.is_file() => {
-                Err(Error::input(path, "this is no ordinary file", "give the output another name"))
+                Err(Error::input(path, "not a regular file", "give the output another name"))
             }
             Some(_) if !self.force => Err(Error::Exists(path.to_path_buf())),
             existing => Ok(existing),
@@ -283,6 +303,19 @@ mod tests {
             folder.read_dir().unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
+    }
+
+    #[test]
+    fn a_dry_run_writes_nothing_and_refuses_what_a_real_one_would() {
+        let folder = tempfile::tempdir().unwrap();
+        let old = folder.path().join("old.csv");
+        std::fs::write(&old, "kept").unwrap();
+        let mut dry = Outputs::new(false, &[]).dry(true);
+        dry.stage(&folder.path().join("new.csv"), put("x")).unwrap();
+        assert!(matches!(dry.stage(&old, put("x")), Err(Error::Exists(_))));
+        assert!(matches!(Outputs::new(true, &[&old]).dry(true).stage(&old, put("x")), Err(Error::IsInput(_))));
+        dry.commit().unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
     #[test]

@@ -37,7 +37,7 @@ impl Preview {
             return Err(Error::input(path, "this is a folder", "name one of the files in it"));
         }
         if !about.is_file() {
-            return Err(Error::input(path, "this is no ordinary file", "name a file with a record"));
+            return Err(Error::input(path, "not a regular file", "name a file with a record"));
         }
         let (supply, _) = Supply::open(path, Extent::All)?;
         let columnar = supply.packing().is_some_and(Packing::is_columnar);

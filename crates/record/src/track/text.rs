@@ -139,7 +139,7 @@ impl<'a> Text<'a> {
             return Err(Error::Input {
                 path: path.to_path_buf(),
                 line: Some(line_at(&bytes, start + at)),
-                what: "a NUL byte: this is no text, or UTF-16 without its byte order mark".into(),
+                what: "a NUL byte: not a text file, or UTF-16 without a byte order mark".into(),
                 help: "export the record as text; if it is UTF-16: iconv -f UTF-16LE -t UTF-8 OLD > NEW".into(),
             });
         }
@@ -265,7 +265,7 @@ fn eight_bit(bytes: &[u8], bom: bool, wanted: Option<Encoding>, path: &Path) -> 
     match (wanted, std::str::from_utf8(bytes)) {
         (Some(Encoding::Latin1), _) => Ok(Encoding::Latin1),
         (Some(Encoding::Utf16 { .. }), _) => {
-            Err(Error::input(path, "not UTF-16: the byte order mark is missing", "leave the encoding to be recognised"))
+            Err(Error::input(path, "not UTF-16: the byte order mark is missing", "leave out --encoding"))
         }
         (_, Ok(_)) => Ok(utf8),
         (None, Err(_)) => Ok(Encoding::Latin1),
@@ -273,7 +273,7 @@ fn eight_bit(bytes: &[u8], bom: bool, wanted: Option<Encoding>, path: &Path) -> 
             path: path.to_path_buf(),
             line: Some(line_at(bytes, e.valid_up_to())),
             what: "a byte that is not UTF-8".into(),
-            help: "read it as Latin-1 (--encoding latin-1), or leave the encoding to be recognised".into(),
+            help: "read it as Latin-1 (--encoding latin-1), or leave out --encoding".into(),
         }),
     }
 }

@@ -199,7 +199,7 @@ impl View {
             return Err(Error::input(
                 "",
                 format!("no records with measurements in this file, which looks like {}", format.name),
-                "name a file with measurements; what is read of the format stands in docs/what-it-reads.md",
+                "name a file with measurements; `wildpoint help formats` says what is read of each format",
             ));
         }
         let width = sheet.fields.len();

@@ -23,7 +23,7 @@ pub(crate) struct Case {
     pub(crate) start: &'static str,
     /// Seconds between two samples.
     pub(crate) step: f64,
-    /// Columns that are no channels.
+    /// Columns that are not channels.
     pub(crate) asides: &'static [&'static str],
     /// A column and how many of its cells hold no value.
     pub(crate) missing: (&'static str, usize),

@@ -102,8 +102,8 @@ fn correct(model: &mut Model, mut browser: Browser) -> Vec<Effect> {
         }
         chosen => {
             let what = match chosen.map(|entry| entry.kind) {
-                Some(FileKind::Session) => "a session says itself how its record is loaded: Enter opens it",
-                Some(_) => "only records are loaded in one way or another",
+                Some(FileKind::Session) => "a session already says how its record is loaded: Enter opens it",
+                Some(_) => "only records have loader settings",
                 None => "nothing is chosen",
             };
             browser.said = Some((what.into(), true));

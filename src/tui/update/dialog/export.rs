@@ -76,7 +76,7 @@ fn write(model: &mut Model, form: ExportForm) -> Vec<Effect> {
         return keep(model, Dialog::Export(form));
     }
     if outputs.is_empty() {
-        model.say(Tone::Warning, "nothing is chosen: space chooses");
+        model.say(Tone::Warning, "nothing is selected: space selects");
         return keep(model, Dialog::Export(form));
     }
     // The dialog stays until all has been written.

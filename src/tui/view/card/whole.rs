@@ -75,7 +75,7 @@ fn facts(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> V
         (Some(ruling), Some(why)) => format!("{}, {why}", ruling.verdict().word()),
         (_, Some(why)) => why,
         _ => format!(
-            "by nobody yet: {} accepts, {} rejects, {} flags by hand",
+            "undecided: {} accepts, {} rejects, {} flags by hand",
             model.key(Action::Accept),
             model.key(Action::Reject),
             model.key(Action::ByHand)
@@ -83,7 +83,7 @@ fn facts(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> V
     };
     facts.push(("decided", decided, theme.text));
     if let Some(said) = mark.filter(|m| m.conflict()).and_then(|m| m.said) {
-        let text = format!("when that was decided, the method said {}", said.word());
+        let text = format!("the method said {} when this was decided", said.word());
         facts.push(("conflict", text, theme.warning));
     }
     if let Some((count, names, style)) = votes_words(model, i) {
@@ -108,8 +108,8 @@ fn judgement(model: &Model, drawn: &Drawn, series: &Series<'_>, i: usize, facts:
     if let Some(ratio) = drawn.ratio(series, i) {
         let mut text = format!("{} tolerances", ratio_text(ratio));
         if drawn.in_scales() {
-            let scales = ratio_text(ratio * drawn.threshold);
-            text.push_str(&format!(", {scales} scales (flagged from {})", short(drawn.threshold)));
+            let sigma = ratio_text(ratio * drawn.threshold);
+            text.push_str(&format!(", {sigma} sigma (threshold {})", short(drawn.threshold)));
         }
         facts.push(("ratio", text, theme.text));
     }
@@ -120,7 +120,7 @@ fn judgement(model: &Model, drawn: &Drawn, series: &Series<'_>, i: usize, facts:
             let text = format!("{} says {}: {}", objected.by, verdict.word(), objected.evidence);
             facts.push(("check", text, theme.text));
             let id = detection.setup.method.about().id;
-            facts.push(("method", format!("{id} does not see it"), theme.text));
+            facts.push(("method", format!("{id} is not shown this sample"), theme.text));
         }
         None => {
             let id = detection.setup.method.about().id;
@@ -142,7 +142,7 @@ fn judgement(model: &Model, drawn: &Drawn, series: &Series<'_>, i: usize, facts:
     };
     facts.push(("run", run, theme.text));
     if judged.restarts().iter().any(|r| r.at == i) {
-        let text = "the model was lost here: a change of the trajectory, or a long patch";
+        let text = "the model restarted here: a manoeuvre, or a long run of outliers";
         facts.push(("restart", text.into(), theme.warning));
     }
 }

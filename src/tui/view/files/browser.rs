@@ -51,7 +51,7 @@ fn entries(model: &Model, browser: &Browser, area: Rect, buffer: &mut Buffer) ->
         lines.push((line(model, entry, chosen, usize::from(area.width)), Some(i)));
     }
     if found.is_empty() {
-        let words = if browser.listing { "reading the folder …" } else { "nothing fits; Enter takes it as a path" };
+        let words = if browser.listing { "reading the folder …" } else { "no match; Enter opens it as a path" };
         lines.push((Line::styled(words, theme.dim), None));
     }
     let from = (choice_row + 1).saturating_sub(usize::from(area.height));

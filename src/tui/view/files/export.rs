@@ -26,7 +26,7 @@ pub(super) fn draw(model: &Model, form: &ExportForm, area: Rect, buffer: &mut Bu
             lines.push((typed(model, &head, input, inside.width), None));
             continue;
         }
-        let there = if row.there { "  there already" } else { "" };
+        let there = if row.there { "  exists" } else { "" };
         let room = width.saturating_sub(head.chars().count() + there.len());
         let path = end_of(&printable(&row.path.display().to_string()), room);
         let style = if chosen {
@@ -44,7 +44,7 @@ pub(super) fn draw(model: &Model, form: &ExportForm, area: Rect, buffer: &mut Bu
         lines.push((line, Some(i)));
     }
     let help = form.rows.get(form.choice).map_or("", |row| row.kind.help());
-    let below = ["", help, "All that is chosen appears together, or nothing does."];
+    let below = ["", help, "All chosen files are written together, or none."];
     lines.extend(below.map(|text| (Line::styled(text, theme.dim), None)));
     choices(model, lines, 0, inside, buffer)
 }

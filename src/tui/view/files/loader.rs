@@ -27,9 +27,9 @@ pub(super) fn draw(model: &Model, form: &LoaderForm, area: Rect, buffer: &mut Bu
     let mut lines: Vec<Line<'static>> = Vec::new();
     let theme = &model.theme;
     let what = if form.again {
-        "Enter loads it so; settings stay, and decisions where the rows are the same."
+        "Enter: reload with these settings. Decisions stay where rows are unchanged."
     } else {
-        "Enter opens it so."
+        "Enter: open with these settings."
     };
     let (what, style) = if form.stale { ("looking …", theme.warning) } else { (what, theme.dim) };
     lines.push(Line::styled(what, style));
@@ -121,7 +121,7 @@ fn field(model: &Model, form: &LoaderForm, at: usize, width: usize) -> Line<'sta
     let told = (field.text)(&form.options);
     let (text, style) = match &told {
         Some(text) => (printable(text), theme.title),
-        None => ("recognised".to_owned(), theme.dim),
+        None => ("detected".to_owned(), theme.dim),
     };
     let text = fit(&text, width.saturating_sub(NAMES + 4));
     let room = width.saturating_sub(NAMES + 4 + text.chars().count());

@@ -69,7 +69,7 @@ pub fn cannot_flag(rules: &Rules) -> Vec<String> {
     let mut lines = Vec::new();
     if (1..5).contains(&rules.max_run) {
         lines.push(format!(
-            "max_run = {}: a patch of {} or more samples is taken for a change of the trajectory",
+            "max_run = {}: a run of {} or more outliers is taken for a change of the trajectory",
             rules.max_run,
             rules.max_run + 1
         ));

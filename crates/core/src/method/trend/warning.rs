@@ -21,9 +21,9 @@ pub(in crate::method) fn reach(n: usize, leverage: f64) -> f64 {
 /// (`end`) and where the trend leaves it most freedom (`best`).
 pub(in crate::method) fn of_block(n: usize, limit: f64, end: f64, best: f64) -> Option<String> {
     let what = if best < limit {
-        format!("cannot flag anything: among {n} samples a lone spike reaches at most {best:.2} scales")
+        format!("cannot flag anything: among {n} samples a lone spike reaches at most {best:.2} sigma")
     } else if end < limit {
-        format!("cannot flag a lone spike at an end: among {n} samples it reaches at most {end:.2} scales there")
+        format!("cannot flag a lone spike at an end: among {n} samples it reaches at most {end:.2} sigma there")
     } else {
         return None;
     };

@@ -20,7 +20,7 @@ pub(in crate::method) fn reach(width: usize, center: Center) -> f64 {
 pub(in crate::method) fn of_reach(reach: f64, k: f64) -> Option<String> {
     (!exceeds(reach, k)).then(|| {
         format!(
-            "cannot flag anything: with scale rms and this window a lone spike reaches at most {reach:.3} scales, \
+            "cannot flag anything: with scale rms and this window a lone spike reaches at most {reach:.3} sigma, \
              and k is {k}; use a longer window, scale = mad or a smaller k"
         )
     })

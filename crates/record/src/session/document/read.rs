@@ -193,7 +193,7 @@ pub(in crate::session) fn read_with_texts(path: &Path) -> Result<Read> {
         // A pipe would wait for its other end, and a device may have none.
         let about = path.metadata().map_err(unreadable())?;
         if !about.is_file() {
-            return Err(fault(path, None, "this is no ordinary file".into(), "name a session file"));
+            return Err(fault(path, None, "not a regular file".into(), "name a session file"));
         }
         // Known before anything of it is read.
         if about.len() > LARGEST {

@@ -189,7 +189,7 @@ fn reference(source: &Source, session: &Path) -> Result<String> {
     let mut path = PathBuf::new();
     from.components().skip(common).for_each(|_| path.push(".."));
     to.components().skip(common).for_each(|c| path.push(c));
-    let what = "its name is no UTF-8, and a session, which is text, could not find it again";
+    let what = "its name is not UTF-8, so a session could not refer to it";
     let text = path.to_str().ok_or_else(|| Error::input(file, what, "give it another name, then load it again"))?;
     // Elsewhere a backslash is a character like any other.
     Ok(if cfg!(windows) { text.replace('\\', "/") } else { text.to_owned() })

@@ -12,7 +12,7 @@ pub(super) const FORMAT: Format = Format {
     about: "flight logs of ArduPilot as text, a table for each kind of message",
     known_by: "lines `FMT, 128,` or other `FMT` messages at the start",
     maps: "a table for each message (`--table`), else that with the most rows; names from `FMT`, units from `FMTU` and \
-           `UNIT`; time `TimeUS` or `TimeMS`; a track for each instance (`I`); states are no channels",
+           `UNIT`; time `TimeUS` or `TimeMS`; a track for each instance (`I`); states are not channels",
     known: |text| {
         let mut first = text.lines().filter(|l| !l.trim().is_empty()).take(10);
         first.any(|l| l.split(',').map(str::trim).take(2).eq(["FMT", "128"]))

@@ -7,7 +7,7 @@ pub(super) const FORMAT: Format = Format {
     name: "Betaflight blackbox",
     about: "flight logs of Betaflight, Cleanflight and INAV, decoded to CSV",
     known_by: "the names `loopIteration` and `time`",
-    maps: "time in microseconds; units from the names; the count of loops and the flags are no channels",
+    maps: "time in microseconds; units from the names; the count of loops and the flags are not channels",
     known: |text| header(text).is_some(),
     complete,
     label: |_, name| match name {

@@ -10,8 +10,8 @@ pub(super) const FORMAT: Format = Format {
     about: "profiles and moorings of Sea-Bird instruments",
     known_by: "`* Sea-Bird` at the start, or `# name 0 =` above `*END*`",
     maps: "names and units from `# name N`; time `timeJ` (days of the year of `start_time`), `timeK` and `timeQ` (seconds since \
-           2000), `timeN` and `timeY` (since 1970), else seconds, minutes or hours elapsed; `bad_flag` is no value, `flag` is \
-           no channel",
+           2000), `timeN` and `timeY` (since 1970), else seconds, minutes or hours elapsed; `bad_flag` means missing, `flag` is \
+           not a channel",
     known: |text| text.starts_with("* Sea-Bird") || (text.contains("\n# name 0 = ") && text.contains("*END*")),
     complete,
     label,

@@ -11,7 +11,7 @@ pub(super) const FORMAT: Format = Format {
     about: "laser ranging to satellites (normal points, full rate)",
     known_by: "`H1 CRD` at the start",
     maps: "a table for each kind of record (`--table`): normal points, full rate, weather, pointing, calibration; time from \
-           the date of H4 and the seconds of the day; a track for each target, where there are several; `na` is no value",
+           the date of H4 and the seconds of the day; a track for each target, where there are several; `na` means missing",
     known: |text| {
         let mut words = text.split_whitespace();
         words.next().is_some_and(|w| w.eq_ignore_ascii_case("h1"))

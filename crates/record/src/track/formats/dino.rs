@@ -7,7 +7,7 @@ pub(super) const FORMAT: Format = Format {
     name: "DINO",
     about: "groundwater levels of the Netherlands, as DINOloket gives them",
     known_by: "the names `Locatie`, `Filternummer`, `Peildatum`",
-    maps: "time `Peildatum`, day first; `Stand (cm t.o.v. …)` in cm; the number of the filter is no channel",
+    maps: "time `Peildatum`, day first; `Stand (cm t.o.v. …)` in cm; the number of the filter is not a channel",
     known: |text| header(text).is_some(),
     complete: |text, known| {
         known.header(header(text));

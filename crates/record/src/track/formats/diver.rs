@@ -7,7 +7,7 @@ pub(super) const FORMAT: Format = Format {
     name: "Van Essen Diver (MON)",
     about: "water pressure and temperature of Diver loggers",
     known_by: "`Data file for DataLogger` or `[Logger settings]` above `[Data]`",
-    maps: "names and units from the sections `[Channel N]`, the line of the count below `[Data]` is no row",
+    maps: "names and units from the sections `[Channel N]`, the line with the count below `[Data]` is not a row",
     known: |text| {
         let logger = text.contains("Data file for DataLogger") || text.contains("[Logger settings]");
         logger && data(text).is_some()

@@ -8,7 +8,7 @@ pub(super) const FORMAT: Format = Format {
     about: "full output of the flux software of LI-COR",
     known_by: "the names `filename,date,time`, or `file_info` above them",
     maps: "time from `date` and `time`; units in the line below the names; columns `qc_`, `daytime` and counts of records \
-           are no channels; -9999 is no value",
+           are not channels; -9999 means missing",
     known: |text| header(text).is_some(),
     complete,
     label: |_, name| label(name),

@@ -7,7 +7,7 @@ pub(super) const FORMAT: Format = Format {
     name: "YSI EXO",
     about: "exports of water quality sondes, as Kor writes them",
     known_by: "`KOR` and `Export` in the first line, or the names `Time (Fract. Sec)` and `Site Name`",
-    maps: "time from date and `Time (HH:mm:ss)`; units from the ends of the names (`Cond µS/cm`); fault codes are no channels",
+    maps: "time from date and `Time (HH:mm:ss)`; units from the ends of the names (`Cond µS/cm`); fault codes are not channels",
     known: |text| {
         let first = text.lines().next().unwrap_or("").to_uppercase();
         header(text).is_some() || (first.contains("KOR") && first.contains("EXPORT"))

@@ -8,7 +8,7 @@ pub(super) const FORMAT: Format = Format {
     about: "exports of Onset loggers, as HOBOware writes them",
     known_by: "`Plot Title` in the first line, `LGR S/N` or `Date Time, GMT` in the names",
     maps: "units from the names (`Temp, °F (LGR S/N: …)`); `#` and what the logger notes beside the samples (`Logged`) \
-           are no channels; clocks are those of the zone in the header",
+           are not channels; clocks are those of the zone in the header",
     known: |text| {
         let mut lines = text.lines().take(4);
         lines.any(|l| l.trim_start_matches(['\u{feff}', '"']).starts_with("Plot Title") || is_header(l))

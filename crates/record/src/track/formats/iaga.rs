@@ -6,7 +6,7 @@ pub(super) const FORMAT: Format = Format {
     name: "IAGA-2002",
     about: "records of geomagnetic observatories",
     known_by: "`IAGA-2002` in the first lines",
-    maps: "date and time, 99999.00 and 88888.00 are no values",
+    maps: "date and time, 99999.00 and 88888.00 mean missing",
     known: |text| text.lines().take(3).any(|l| l.contains("IAGA-2002")),
     complete,
     closed: true,

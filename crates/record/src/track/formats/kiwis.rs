@@ -7,7 +7,7 @@ pub(super) const FORMAT: Format = Format {
     name: "WISKI (KiWIS CSV)",
     about: "time series of WISKI, as its web services give them",
     known_by: "comments that begin with `#ts_id`, `#station_` or `#rows`, the last of which is `#Timestamp` and the names",
-    maps: "time `Timestamp`; the unit from `#ts_unitsymbol`; quality codes are no channels",
+    maps: "time `Timestamp`; the unit from `#ts_unitsymbol`; quality codes are not channels",
     known: |text| {
         let keyed = |l: &str| ["#ts_", "#station_", "#rows", "#parametertype"].iter().any(|k| l.starts_with(k));
         text.lines().take(40).any(keyed) && header(text).is_some()

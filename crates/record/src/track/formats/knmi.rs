@@ -8,7 +8,7 @@ pub(super) const FORMAT: Format = Format {
     about: "hourly and daily data of the weather stations of the Netherlands",
     known_by: "the names `STN,YYYYMMDD`",
     maps: "time from `YYYYMMDD` and `HH` (hours 1 to 24), in UT; units from the legend (`in 0.1 m/s`); codes of the weather \
-           are no channels; a track for each station",
+           are not channels; a track for each station",
     known: |text| header(text).is_some(),
     complete,
     label,

@@ -11,7 +11,7 @@ pub(super) const FORMAT: Format = Format {
     about: "measurement files of LabVIEW",
     known_by: "`LabVIEW Measurement` at the start",
     maps: "time from `X_Value`, or from `X0` and `Delta_X`; in several segments that begin again at 0 with the `Date` and \
-           `Time` of each; units from `Y_Unit_Label`; `Separator` and `Decimal_Separator` as they are told",
+           `Time` of each; units from `Y_Unit_Label`; `Separator` and `Decimal_Separator` as the header gives them",
     known: |text| text.trim_start_matches('\u{feff}').starts_with("LabVIEW Measurement"),
     sheet: Some(sheet),
     ..PLAIN

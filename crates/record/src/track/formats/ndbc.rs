@@ -6,7 +6,7 @@ pub(super) const FORMAT: Format = Format {
     name: "NDBC",
     about: "weather and waves of buoys (standard meteorological data)",
     known_by: "the names `#YY MM DD hh` (or `YYYY MM DD hh`)",
-    maps: "year to minute are the time, MM is no value",
+    maps: "year to minute are the time, MM means missing",
     known: |text| {
         let first = text.lines().next().unwrap_or("").trim_start_matches('#');
         first.starts_with("YY ") && first.contains("MM DD hh") || first.starts_with("YYYY MM DD hh")

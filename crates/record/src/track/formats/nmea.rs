@@ -16,7 +16,7 @@ pub(super) const FORMAT: Format = Format {
     about: "sentences of navigation receivers, those of one epoch in one row",
     known_by: "lines with `$`, two letters of a talker and GGA, RMC, VTG, GST or GLL",
     maps: "time from the clock of the sentences and the date of RMC or ZDA; positions in degrees; speeds, courses, \
-           altitudes and standard deviations as they are; the quality of the fix and the number of satellites are no \
+           altitudes and standard deviations as they are; the quality of the fix and the number of satellites are not \
            channels; checksums are made right in changed sentences",
     known: |text| {
         let first: Vec<&str> = text.lines().filter(|l| !l.trim().is_empty()).take(40).collect();

@@ -7,8 +7,8 @@ pub(super) const FORMAT: Format = Format {
     name: "USGS RDB",
     about: "tables of the National Water Information System",
     known_by: "a line of names that begins with `agency_cd` and tabs",
-    maps: "time `datetime`; units from the list of parameters in the comments; columns `_cd` are no channels; remarks \
-           like `Ice` and `Eqp` are no values",
+    maps: "time `datetime`; units from the list of parameters in the comments; columns `_cd` are not channels; remarks \
+           like `Ice` and `Eqp` mean missing",
     known: |text| header(text).is_some(),
     complete,
     label,
@@ -37,7 +37,7 @@ fn complete(text: &str, known: &mut Known) {
         known.time(time);
     }
     if names.contains("\ttz_cd") {
-        known.said.push("times are those of the zones in `tz_cd`, as the file writes them (--time-zone America/New_York, say, makes them UTC)".to_owned());
+        known.said.push("times are those of the zones in `tz_cd`, as the file writes them (--time-zone, for example America/New_York, makes them UTC)".to_owned());
     }
 }
 

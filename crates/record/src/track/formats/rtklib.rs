@@ -8,7 +8,7 @@ pub(super) const FORMAT: Format = Format {
     about: "positions that RTKLIB computed from GNSS observations",
     known_by: "a comment `% GPST` (`UTC`, `JST`) with the names of a position",
     maps: "time as date and clock, or as GPS week and seconds; units from the names; the quality `Q` and the number of \
-           satellites `ns` are no channels",
+           satellites `ns` are not channels",
     known: |text| header(text).is_some(),
     complete,
     label: |_, name| match name {

@@ -11,7 +11,7 @@ pub(super) const FORMAT: Format = Format {
     about: "orbits and clocks of GNSS satellites, a block for each epoch",
     known_by: "`#aP` to `#dV` and a year at the start",
     maps: "a track for each satellite; `P` and `V` records of one epoch in one row: `x`, `y`, `z` in km, `clock` in µs, \
-           velocities in dm/s; 0.000000 and 999999.999999 are no values; precisions are no channels",
+           velocities in dm/s; 0.000000 and 999999.999999 mean missing; precisions are not channels",
     known: |text| {
         let head = text.as_bytes();
         matches!(head, [b'#', b'a'..=b'd', b'P' | b'V', year @ ..] if year.len() > 4 && year[..4].iter().all(u8::is_ascii_digit))

@@ -6,7 +6,7 @@ pub(super) const FORMAT: Format = Format {
     name: "SURFRAD",
     about: "surface radiation, as NOAA distributes it",
     known_by: "`m version` in the second line",
-    maps: "year to minute are the time, -9999.9 is no value",
+    maps: "year to minute are the time, -9999.9 means missing",
     known: |text| {
         let mut lines = text.lines();
         let second = lines.nth(1).unwrap_or("");

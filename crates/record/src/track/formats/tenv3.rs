@@ -7,7 +7,7 @@ pub(super) const FORMAT: Format = Format {
     name: "tenv3",
     about: "daily positions of GNSS stations of the Nevada Geodetic Laboratory",
     known_by: "the names `site YYMMMDD yyyy.yyyy`",
-    maps: "time `YYMMMDD`; units from the names; site, week, day and the whole metres `e0`, `n0`, `u0` are no channels",
+    maps: "time `YYMMMDD`; units from the names; site, week, day and the whole metres `e0`, `n0`, `u0` are not channels",
     known: |text| {
         let words: Vec<&str> = text.lines().next().unwrap_or("").split_whitespace().take(3).collect();
         words == ["site", "YYMMMDD", "yyyy.yyyy"]

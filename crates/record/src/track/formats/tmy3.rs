@@ -11,8 +11,8 @@ pub(super) const FORMAT: Format = Format {
     name: "TMY3",
     about: "typical meteorological years of NREL",
     known_by: "the names `Date (MM/DD/YYYY)`, `Time (HH:MM)` in the second line",
-    maps: "time from both, all months in the year of the first row; units from the names; sources and uncertainties are no \
-           channels; -9900 is no value",
+    maps: "time from both, all months in the year of the first row; units from the names; sources and uncertainties are not \
+           channels; -9900 means missing",
     known: |text| {
         let names = text.lines().nth(1).map(names_in).unwrap_or_default();
         names.starts_with(&["Date (MM/DD/YYYY)", "Time (HH:MM)"])

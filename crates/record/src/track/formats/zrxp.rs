@@ -9,7 +9,7 @@ pub(super) const FORMAT: Format = Format {
     name: "WISKI (ZRXP)",
     about: "time series of WISKI and other KISTERS systems",
     known_by: "lines that begin with `#` and hold keys between `|*|`",
-    maps: "columns as `LAYOUT` has them, else timestamp and value; unit `CUNIT`; `RINVAL` is no value; states are no \
+    maps: "columns as `LAYOUT` has them, else timestamp and value; unit `CUNIT`; `RINVAL` means missing; states are not \
            channels; a track for each series, where there are several",
     known: |text| {
         let first = text.lines().find(|l| !l.trim().is_empty() && !l.starts_with("##")).unwrap_or("");

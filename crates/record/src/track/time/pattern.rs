@@ -47,14 +47,14 @@ impl Pattern {
         while let Some(c) = rest.next() {
             match c {
                 '%' => Self::letter(rest.next(), &mut rest, &mut items)
-                    .ok_or_else(|| Error::usage(format!("`{text}` is no pattern of a time"), LETTERS))?,
+                    .ok_or_else(|| Error::usage(format!("`{text}` is not a time format"), LETTERS))?,
                 c if c.is_ascii_whitespace() => items.push(Item::Blanks),
                 c => items.extend(c.encode_utf8(&mut [0; 4]).bytes().map(Item::Byte)),
             }
         }
         let tells = |i: &Item| matches!(i, Item::Digits(..));
         if !items.iter().any(tells) {
-            return Err(Error::usage(format!("`{text}` is no pattern of a time"), LETTERS));
+            return Err(Error::usage(format!("`{text}` is not a time format"), LETTERS));
         }
         Ok(Self { text: text.to_owned(), items })
     }

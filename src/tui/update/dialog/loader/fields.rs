@@ -44,7 +44,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "time unit",
-        help: "of times that are numbers",
+        help: "unit of numeric times",
         text: |o| o.time_unit.and_then(Worded::word).map(str::to_owned),
         step: Some(|o, _, by| o.time_unit = stepped(o.time_unit, by)),
         clear: |o| o.time_unit = None,
@@ -63,7 +63,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "time zone",
-        help: "of clocks that write none: Europe/Berlin, +01:00",
+        help: "time zone of times without one: Europe/Berlin, +01:00",
         text: |o| o.time_zone.clone(),
         step: None,
         clear: |o| o.time_zone = None,
@@ -72,7 +72,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "channels",
-        help: "columns of numbers, commas between them",
+        help: "columns of numbers, separated by commas",
         text: |o| (!o.channels.is_empty()).then(|| o.channels.join(", ")),
         step: Some(|o, columns, by| {
             let now = o.channels.first().cloned();
@@ -84,7 +84,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "track column",
-        help: "the id that tells several tracks in one table apart",
+        help: "column with the track id, if the table has several tracks",
         text: |o| o.track.clone(),
         step: Some(|o, columns, by| o.track = next(&named(columns, None), o.track.clone(), by)),
         clear: |o| o.track = None,
@@ -93,7 +93,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "truth column",
-        help: "1 where a sample is really wild",
+        help: "1 marks a true outlier",
         text: |o| o.truth.clone(),
         step: Some(|o, columns, by| o.truth = next(&named(columns, None), o.truth.clone(), by)),
         clear: |o| o.truth = None,
@@ -111,7 +111,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "header line",
-        help: "the line that names the columns, from 1",
+        help: "line with the column names, from 1",
         text: |o| o.header_line.map(|n| n.to_string()),
         step: Some(|o, _, by| o.header_line = counted(o.header_line, by)),
         clear: |o| o.header_line = None,
@@ -120,7 +120,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "units line",
-        help: "the line of the units, from 1",
+        help: "line with the units, from 1",
         text: |o| o.units_line.map(|n| n.to_string()),
         step: Some(|o, _, by| o.units_line = counted(o.units_line, by)),
         clear: |o| o.units_line = None,
@@ -129,7 +129,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "skipped lines",
-        help: "lines at the start that are not looked at",
+        help: "lines to skip at the start of the file",
         text: |o| o.skip.map(|n| n.to_string()),
         step: Some(|o, _, by| o.skip = counted(o.skip, by)),
         clear: |o| o.skip = None,
@@ -138,7 +138,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "table",
-        help: "which one of a file with several, from 1",
+        help: "which table, if the file has several (from 1)",
         text: |o| o.table.map(|n| n.to_string()),
         step: Some(|o, _, by| o.table = counted(o.table, by)),
         clear: |o| o.table = None,
@@ -147,7 +147,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "names",
-        help: "of the columns, commas between them",
+        help: "column names, separated by commas",
         text: |o| (!o.names.is_empty()).then(|| o.names.join(", ")),
         step: None,
         clear: |o| o.names.clear(),
@@ -156,7 +156,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "comments",
-        help: "what they begin with, besides #, % and //",
+        help: "prefix of comment lines, besides #, % and //",
         text: |o| o.comment.clone(),
         step: None,
         clear: |o| o.comment = None,
@@ -165,7 +165,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "delimiter",
-        help: "what stands between two cells",
+        help: "field separator",
         text: |o| o.delimiter.and_then(Worded::word).map(str::to_owned),
         step: Some(|o, _, by| o.delimiter = stepped(o.delimiter, by)),
         clear: |o| o.delimiter = None,
@@ -174,7 +174,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "decimal comma",
-        help: "1,5 is one and a half",
+        help: "decimal comma",
         text: |o| o.decimal_comma.map(yes),
         step: Some(|o, _, by| o.decimal_comma = next(&[true, false], o.decimal_comma, by)),
         clear: |o| o.decimal_comma = None,
@@ -183,7 +183,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "header",
-        help: "the first line names the columns",
+        help: "the first line holds the column names",
         text: |o| o.header.map(yes),
         step: Some(|o, _, by| o.header = next(&[true, false], o.header, by)),
         clear: |o| o.header = None,
@@ -192,7 +192,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "quotes",
-        help: "cells may stand in quotes",
+        help: "cells may be quoted",
         text: |o| o.quotes.map(yes),
         step: Some(|o, _, by| o.quotes = next(&[true, false], o.quotes, by)),
         clear: |o| o.quotes = None,
@@ -210,7 +210,7 @@ pub static FIELDS: &[Field] = &[
     },
     Field {
         name: "encoding",
-        help: "how bytes are read as text",
+        help: "text encoding",
         text: |o| o.encoding.and_then(Worded::word).map(str::to_owned),
         step: Some(|o, _, by| o.encoding = stepped(o.encoding, by)),
         clear: |o| o.encoding = None,
