@@ -27,7 +27,7 @@ mod table;
 mod targets;
 
 pub use interrupted::end_tidily;
-pub use methods::markdown as methods_table;
+pub use methods::{choices as choices_table, markdown as methods_table};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -84,6 +84,18 @@ fn the_page_of_what_is_read_is_that_of_the_registry() {
 }
 
 #[test]
+fn the_table_of_advice_on_the_methods_page_is_that_of_the_program() {
+    let path = root().join("docs/methods.md");
+    let old = std::fs::read_to_string(&path).expect("the page is there");
+    let new = with_part(&old, "choices", &wildpoint::batch::choices_table());
+    if std::env::var_os("WILDPOINT_UPDATE").is_some() {
+        std::fs::write(&path, &new).expect("the page can be written");
+    }
+    let now = std::fs::read_to_string(&path).expect("the page is there");
+    assert!(now == new, "docs/methods.md is stale: run WILDPOINT_UPDATE=1 cargo test --test docs");
+}
+
+#[test]
 fn the_commands_of_the_readme_exist() {
     use clap::CommandFactory;
     let text = std::fs::read_to_string(path()).expect("the README is there");

@@ -7,11 +7,13 @@ use crate::stop::Stop;
 use crate::track::{Series, TimeAxis, Track};
 
 mod axes;
+mod chart;
 mod close;
 mod curve;
 mod marks;
 mod picture;
 
+pub(super) use chart::{CURVES, chart};
 pub(super) use marks::STATES;
 
 /// A picture with the words under it.
