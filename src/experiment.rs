@@ -8,22 +8,26 @@ use rayon::prelude::*;
 use crate::error::{Error, Result, nearest};
 pub use crate::math::random::Random;
 
+pub mod choice;
 pub mod demo;
 pub mod gan;
 pub mod hou_offline;
 pub mod hou_realtime;
 pub mod inject;
-
 pub mod jiang;
 pub mod jin;
+pub mod jin_gps;
 pub mod qin;
 pub mod record;
 pub mod reproduction;
+pub mod shown;
 pub mod trial;
 
+pub use choice::{CHOICES, Choice};
 pub use inject::{Injection, Plan};
 pub use record::{Record, Signal, Wild};
-pub use reproduction::{Cell, Figures, Finding, Reproduction, Runs, Table};
+pub use reproduction::{Cell, Figures, Finding, Held, Reproduction, Runs, Table};
+pub use shown::{Chart, Curve, Picture, Shown};
 
 /// A record that the program can simulate, and the experiment on it where a document reports one.
 #[derive(Debug)]
@@ -53,6 +57,15 @@ pub struct Published {
     pub trial: fn(&Record) -> Result<Figures>,
     /// Tables and findings from the figures of all runs, in the order of their seeds.
     pub conclude: fn(Runs<'_>) -> (Vec<Table>, Vec<Finding>),
+    /// The document's figures from the record of one run.
+    pub pictures: fn(&Record) -> Result<Vec<Shown>>,
+    /// Its curves from the figures of all runs.
+    pub charts: fn(Runs<'_>) -> Vec<Chart>,
+}
+
+/// [`Published::charts`] where the document has no curves over runs.
+fn no_charts(_: Runs<'_>) -> Vec<Chart> {
+    Vec::new()
 }
 
 /// Every simulated record.
@@ -62,6 +75,7 @@ pub static EXPERIMENTS: &[Experiment] = &[
     hou_offline::EXPERIMENT,
     hou_realtime::EXPERIMENT,
     jin::EXPERIMENT,
+    jin_gps::EXPERIMENT,
     qin::EXPERIMENT,
     gan::EXPERIMENT,
 ];
@@ -118,7 +132,18 @@ impl Experiment {
             runs,
             tables,
             findings,
+            charts: (published.charts)(Runs(&figures)),
         })
+    }
+}
+
+impl Experiment {
+    /// The figures of the document, drawn from the record of this seed.
+    ///
+    /// # Errors
+    /// What judging the record gives.
+    pub fn pictures(&self, seed: u64) -> Result<Vec<Shown>> {
+        self.reproduction.as_ref().map_or_else(|| Ok(Vec::new()), |published| (published.pictures)(&(self.record)(seed)))
     }
 }
 

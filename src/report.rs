@@ -13,6 +13,7 @@ mod html;
 mod inspection;
 mod markdown;
 mod page;
+mod reproduced;
 mod reproduction;
 mod summary;
 mod svg;
@@ -24,6 +25,7 @@ pub use diagnostics::{DIAGNOSTIC_COLUMNS, diagnostics};
 pub(crate) use inspection::short;
 pub use inspection::{ChannelFacts, Inspection, TableFacts, TimeFacts, layout};
 pub use page::ReportForm;
+pub use reproduced::{Reproduced, reproduced_html};
 pub use reproduction::reproduction_text;
 pub use summary::{ChannelSummary, Summary};
 

@@ -119,11 +119,11 @@ fn settings_come_from_preset_and_set_in_this_order() {
         json(&folder.done(&format!("clean demo.csv --channel vx_mps --json {words}")))["channels"][0]["settings"]
             .clone()
     };
-    // Section 6 of `docs/methods.md`: order 2 (paper 3), points 8 (6), max_run 10 (5), repair_rule best (matched).
-    let of = |s: &Value| [&s["order"], &s["points"], &s["max_run"], &s["repair_rule"]].map(ToString::to_string);
-    assert_eq!(of(&settings("")), ["2", "8", "10", "\"best\""]);
-    assert_eq!(of(&settings("--preset paper")), ["3", "6", "5", "\"matched\""]);
-    assert_eq!(of(&settings("--set order=1 --preset paper")), ["1", "6", "5", "\"matched\""]);
+    // Section 6 of `docs/methods.md`: order 2 (paper 3), two_point off (on), max_run 10 (5), repair_rule best (matched).
+    let of = |s: &Value| [&s["order"], &s["two_point"], &s["max_run"], &s["repair_rule"]].map(ToString::to_string);
+    assert_eq!(of(&settings("")), ["2", "false", "10", "\"best\""]);
+    assert_eq!(of(&settings("--preset paper")), ["3", "true", "5", "\"matched\""]);
+    assert_eq!(of(&settings("--set order=1 --preset paper")), ["1", "true", "5", "\"matched\""]);
     assert_eq!(settings("--method hampel --set window=41 --max-gap 9")["window"], 41);
     assert_eq!(settings("--max-gap off")["max_gap"], "off");
 }

@@ -82,7 +82,10 @@ fn ids_and_keys_are_unique_and_every_declared_value_is_legal() {
             assert!(!keys.contains(&param.key), "{of} comes twice");
             keys.push(param.key);
             assert!(param.accepts(param.default), "{of}: default {}", param.default);
-            assert!(param.paper.is_none_or(|v| param.accepts(v)), "{of}: paper {:?}", param.paper);
+            if let Some(paper) = param.paper {
+                assert!(param.accepts(paper.value) && paper.value != param.default, "{of}: paper {}", paper.value);
+                assert!(!paper.why.is_empty() && !paper.why.ends_with('.'), "{of}: why the default departs, in one line");
+            }
             assert!(param.help.len() > 5, "{of} has no help");
             assert_eq!(param.parse(&param.default.to_string()).ok(), Some(param.default), "{of} reads back");
             assert!(repair::PARAMS.iter().all(|p| p.key != param.key), "{of} is a key of repair, too");

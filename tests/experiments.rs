@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
-use wildpoint::experiment::{Cell, EXPERIMENTS, Reproduction, find, published};
+use wildpoint::experiment::{CHOICES, Cell, EXPERIMENTS, Held, Reproduction, find, published};
 use wildpoint::report::reproduction_text;
 use wildpoint::track::{ColumnKind, LoadOptions, Source, Track, load};
 
@@ -15,10 +15,10 @@ fn reproduced(id: &str, runs: usize) -> Reproduction {
 }
 
 fn assert_findings(result: &Reproduction, hold: &[&str], do_not: &[&str]) {
-    for (ids, holds) in [(hold, true), (do_not, false)] {
+    for (ids, held) in [(hold, Held::Yes), (do_not, Held::No)] {
         for id in ids {
             let finding = result.findings.iter().find(|f| f.id == *id).expect("a finding of this name");
-            assert_eq!(finding.holds, holds, "{id}: {}", finding.measured);
+            assert_eq!(finding.held, held, "{id}: {}", finding.measured);
         }
     }
 }
@@ -166,4 +166,18 @@ fn the_number_of_threads_changes_nothing() {
     let json = |r: Reproduction| serde_json::to_string(&r).expect("json");
     let alone = one.install(|| json(reproduced("hou-realtime", 8)));
     assert_eq!(alone, json(reproduced("hou-realtime", 8)));
+}
+
+/// The figures of the table of advice are those of the experiments, to what fewer runs than theirs can tell.
+#[test]
+fn the_table_of_advice_has_the_figures_of_the_experiments() {
+    for (id, runs) in [("hou-offline", 60), ("hou-realtime", 60), ("jin", 20), ("qin", 6), ("gan", 60), ("jiang", 2)] {
+        let result = reproduced(id, runs);
+        let of = CHOICES.iter().flat_map(|choice| choice.measured).filter(|m| m.experiment == id);
+        for measured in of {
+            let now = figure(&result, measured.row, measured.column);
+            let within = 0.1 * measured.value + 1.5;
+            assert!((now - measured.value).abs() <= within, "{id} {:?}: {now}, not {}", measured.row, measured.value);
+        }
+    }
 }

@@ -7,7 +7,7 @@ use super::{Ending, print, print_json, set_threads};
 use crate::cli::{ReproduceArgs, SimulateArgs};
 use crate::error::{Error, Result};
 use crate::experiment::{self, Experiment, Reproduction};
-use crate::report::reproduction_text;
+use crate::report::{Reproduced, reproduced_html, reproduction_text};
 use crate::track::Outputs;
 
 pub(super) fn simulate(args: &SimulateArgs, out: &mut dyn Write) -> Result<Ending> {
@@ -26,8 +26,13 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<End
         Some(id) => vec![experiment::find(id)?],
         None => experiment::published().collect(),
     };
+    // What is wrong with the path is told before the runs, not after them.
+    if let Some(path) = &args.report {
+        Outputs::new(args.force, &[]).stage(path, |_| Ok(()))?;
+    }
     let progress = Progress::new(&experiments, args.runs);
     let mut results = Vec::new();
+    let mut shown = Vec::new();
     for experiment in experiments {
         let result = experiment.reproduce(args.seed, args.runs, &|| progress.step(experiment.id))?;
         if !args.json {
@@ -35,10 +40,22 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<End
             print(out, &told(&result, results.is_empty()))?;
             out.flush().map_err(Error::io("write", "standard output"))?;
         }
+        shown.push(if args.report.is_some() { experiment.pictures(result.seed)? } else { Vec::new() });
         results.push(result);
     }
     progress.clear();
-    if args.json { print_json(out, &results) } else { Ok(Ending::Done) }
+    if args.json {
+        print_json(out, &results)?;
+    }
+    if let Some(path) = &args.report {
+        let experiments: Vec<Reproduced> =
+            results.into_iter().zip(shown).map(|(result, shown)| Reproduced { result, shown }).collect();
+        let page = reproduced_html(&experiments);
+        let mut files = Outputs::new(args.force, &[]);
+        files.stage(path, |w| w.write_all(page.as_bytes()).map_err(Error::io("write", path)))?;
+        files.commit()?;
+    }
+    Ok(Ending::Done)
 }
 
 fn told(result: &Reproduction, first: bool) -> String {

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::{Ending, print, print_json};
 use crate::check::{CHECKS, Check};
 use crate::error::Result;
+use crate::experiment::{CHOICES, Choice};
 use crate::method::{METHODS, Method};
 use crate::param::Param;
 use crate::repair::{PARAMS, REPAIRS};
@@ -34,6 +35,12 @@ struct ListedParam {
     default: serde_json::Value,
     #[serde(skip_serializing_if = "Option::is_none")]
     paper: Option<serde_json::Value>,
+    /// Whether the document gives the value of `paper`, or leaves it open.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    printed: Option<bool>,
+    /// Why the default is another than the value of the paper.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<&'static str>,
 }
 
 pub(super) fn run(id: Option<&str>, json: bool, as_markdown: bool, out: &mut dyn Write) -> Result<Ending> {
@@ -85,7 +92,9 @@ fn listed_param(param: &Param) -> ListedParam {
         unit: param.unit,
         values: param.range(),
         default: serde_json::json!(param.default),
-        paper: param.paper.map(|v| serde_json::json!(v)),
+        paper: param.paper.map(|paper| serde_json::json!(paper.value)),
+        printed: param.paper.map(|paper| paper.printed),
+        why: param.paper.map(|paper| paper.why),
     }
 }
 
@@ -107,7 +116,40 @@ fn list() -> String {
     for about in CHECKS.iter().map(|c| c.about()) {
         let _ = writeln!(out, "  {:18} {}", about.id, about.help);
     }
+    out.push_str("\nwhich method when: the documents' own comparisons, and what was measured on their experiments here\n");
+    CHOICES.iter().for_each(|choice| choice_lines(choice, &mut out));
     out.push_str("\n`wildpoint methods ID` explains one, with its parameters.\n");
+    out
+}
+
+/// A row of the table of advice.
+fn choice_lines(choice: &Choice, out: &mut String) {
+    let text = format!(
+        "{}; in a row: {}; {}; {}. {}. Here: {}.",
+        choice.outliers,
+        choice.run,
+        choice.record,
+        choice.mode(),
+        choice.document,
+        choice.measured()
+    );
+    let first = format!("  {:18} ", choice.method);
+    for line in wrapped(&text, WIDTH, (&first, "                     ")) {
+        let _ = writeln!(out, "{line}");
+    }
+}
+
+/// The same as a table of Markdown, for the pages.
+#[must_use]
+pub fn choices() -> String {
+    let mut out = String::from(
+        "| outliers | in a row | record | | method | the document | measured here |\n|---|---|---|---|---|---|---|\n",
+    );
+    for choice in CHOICES {
+        let Choice { outliers, run, record, method, document, .. } = choice;
+        let (mode, measured) = (choice.mode(), choice.measured());
+        let _ = writeln!(out, "| {outliers} | {run} | {record} | {mode} | `{method}` | {document} | {measured} |");
+    }
     out
 }
 
@@ -116,8 +158,21 @@ fn page(method: &dyn Method) -> String {
     let mut out = format!("{}: {} ({}, {})\n\n", about.id, about.name, about.family, about.source);
     wrap(&mut out, "", &one_line(about.advice));
     parameters(&mut out, "parameters", about.params);
+    departures(&mut out, about.params);
     parameters(&mut out, "parameters of repair", PARAMS);
     out
+}
+
+/// Where the defaults are not what the document has, and why.
+fn departures(out: &mut String, params: &[Param]) {
+    if params.iter().all(|p| p.paper.is_none()) {
+        return;
+    }
+    out.push_str("\nwhere the defaults depart from the document (--preset paper)\n");
+    for (param, paper) in params.iter().filter_map(|p| Some((p, p.paper?))) {
+        let whose = if paper.printed { "the document" } else { "the document leaves it open; --preset paper" };
+        let _ = writeln!(out, "  {:16} {} ({whose}: {}): {}", param.key, param.default, paper.value, paper.why);
+    }
 }
 
 /// The check with this id, unless a method has it.
@@ -138,7 +193,7 @@ fn check_page(check: &dyn Check) -> String {
 fn parameters(out: &mut String, title: &str, params: &[Param]) {
     let _ = writeln!(out, "\n{title}");
     for p in params {
-        let paper = p.paper.map_or(String::new(), |v| format!(", paper {v}"));
+        let paper = p.paper.map_or(String::new(), |paper| format!(", paper {}", paper.value));
         let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
         let default = p.default.to_string();
         let default = if default.is_empty() { "none" } else { &default };
@@ -170,8 +225,10 @@ fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+/// Columns of the text.
+const WIDTH: usize = 98;
+
 fn wrap(out: &mut String, indent: &str, text: &str) {
-    const WIDTH: usize = 98;
     for line in wrapped(text, WIDTH, (indent, indent)) {
         let _ = writeln!(out, "{line}");
     }

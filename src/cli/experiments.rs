@@ -16,7 +16,7 @@ use crate::experiment::inject::{Amount, Patches, Span, Step};
 /// wildpoint clean jin.csv --channel x --reference x_clean.
 #[derive(Debug, Clone, Args)]
 pub struct SimulateArgs {
-    /// Which: demo, jiang, hou-offline, hou-realtime, jin, qin, gan.
+    /// Which: demo, jiang, hou-offline, hou-realtime, jin, jin-gps, qin, gan.
     pub experiment: String,
     /// Seed of the random numbers [default: the experiment's own].
     #[arg(long)]
@@ -35,12 +35,12 @@ pub struct SimulateArgs {
 
 /// Run the published experiments and print their tables beside ours.
 ///
-/// Under each table stand the statements of the document: those that hold in the figures measured here and those
-/// that do not, with the figures. The documents' data are not public; what stands in for them is told with each.
+/// Under each table stand the statements of the document: those that hold in the figures measured here, those that do not,
+/// and those that nothing here can tell, with the figures. The documents' data are not public; what stands in for them is told with each.
 /// Runs on all cores.
 #[derive(Debug, Clone, Args)]
 pub struct ReproduceArgs {
-    /// Which: jiang, hou-offline, hou-realtime, jin, qin, gan [default: all].
+    /// Which: jiang, hou-offline, hou-realtime, jin, jin-gps, qin, gan [default: all].
     pub experiment: Option<String>,
     /// Seed of the first run; the others follow [default: the experiment's own].
     #[arg(long)]
@@ -54,6 +54,22 @@ pub struct ReproduceArgs {
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
+    /// Write an HTML file, a page for each document: its figures drawn from our runs, its tables beside ours, its
+    /// statements with what became of them.
+    #[arg(long, value_name = "FILE.html", value_parser = html)]
+    pub report: Option<PathBuf>,
+    /// Overwrite an existing report.
+    #[arg(long)]
+    pub force: bool,
+}
+
+fn html(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+    match ending.as_deref() {
+        Some("html" | "htm") => Ok(path),
+        _ => Err("the report is an HTML file: give it the ending .html".to_owned()),
+    }
 }
 
 /// Add known outliers to a record, to compare methods on it.

@@ -2,11 +2,13 @@
 
 use super::record::Record;
 use super::reproduction::{Cell, Figures, Finding, Runs, Table};
+use super::shown::{Picture, show};
 use super::trial::{Trial, setup};
 use super::{Experiment, Published};
 use crate::error::Result;
 use crate::session::Preset;
 
+mod charts;
 mod data;
 mod findings;
 
@@ -17,8 +19,91 @@ pub const EXPERIMENT: Experiment = Experiment {
     source: "[003] section 3, table 1",
     record: data::record,
     seed: 2022,
-    reproduction: Some(Published { runs: 100, stand_in: data::STAND_IN, trial, conclude }),
+    reproduction: Some(Published {
+        runs: 100,
+        stand_in: data::STAND_IN,
+        trial,
+        conclude,
+        pictures: |record| show(record, &PICTURES),
+        charts: charts::charts,
+    }),
 };
+
+/// The figures of the document.
+const PICTURES: [Picture; 12] = [
+    Picture {
+        title: "Figures 1 to 5: poly-window, window 20, defaults",
+        method: "poly-window",
+        preset: Preset::Default,
+        keys: &[("window", "20")],
+    },
+    Picture {
+        title: "Figures 1 to 5: template, window 20, defaults",
+        method: "template",
+        preset: Preset::Default,
+        keys: &[("window", "20")],
+    },
+    Picture {
+        title: "Figures 1 to 5: mean-window, window 20, defaults",
+        method: "mean-window",
+        preset: Preset::Default,
+        keys: &[("window", "20")],
+    },
+    Picture {
+        title: "Figures 1 to 5: median-window, window 20, defaults",
+        method: "median-window",
+        preset: Preset::Default,
+        keys: &[("window", "20")],
+    },
+    Picture {
+        title: "Figures 7 to 10: median-window, window 50, defaults",
+        method: "median-window",
+        preset: Preset::Default,
+        keys: &[("window", "50")],
+    },
+    Picture {
+        title: "Figures 7 to 10: poly-window, window 50, defaults",
+        method: "poly-window",
+        preset: Preset::Default,
+        keys: &[("window", "50")],
+    },
+    Picture {
+        title: "Figures 7 to 10: template, window 50, defaults",
+        method: "template",
+        preset: Preset::Default,
+        keys: &[("window", "50")],
+    },
+    Picture {
+        title: "Figures 7 to 10: mean-window, window 50, defaults",
+        method: "mean-window",
+        preset: Preset::Default,
+        keys: &[("window", "50")],
+    },
+    Picture {
+        title: "Figures 12 to 15: median-window, window 200, defaults",
+        method: "median-window",
+        preset: Preset::Default,
+        keys: &[("window", "200")],
+    },
+    Picture {
+        title: "Figures 12 to 15: poly-window, window 200, defaults",
+        method: "poly-window",
+        preset: Preset::Default,
+        keys: &[("window", "200")],
+    },
+    Picture {
+        title: "Figures 12 to 15: template, window 200, defaults",
+        method: "template",
+        preset: Preset::Default,
+        keys: &[("window", "200")],
+    },
+    Picture {
+        title: "Figures 12 to 15: mean-window, window 200, defaults",
+        method: "mean-window",
+        preset: Preset::Default,
+        keys: &[("window", "200")],
+    },
+];
 
 const WINDOWS: [&str; 8] = ["7", "8", "10", "20", "30", "50", "100", "200"];
 
@@ -90,7 +175,8 @@ fn trial(record: &Record) -> Result<Figures> {
                 let error = trial.final_error(&outcome);
                 let tally = trial.tally(&outcome);
                 #[expect(clippy::cast_precision_loss, reason = "counts of some thousand samples")]
-                let counts = [tally.hits(), tally.false_alarms, error.removed].map(|n| n as f64);
+                let counts =
+                    [tally.hits(), tally.false_alarms, error.removed, tally.isolated, tally.patch].map(|n| n as f64);
                 let mut values = vec![error.rms.unwrap_or(f64::NAN)];
                 values.extend(counts);
                 figures.push((label, values));
@@ -105,6 +191,8 @@ const ERROR: usize = 0;
 const FOUND: usize = 1;
 const FALSE: usize = 2;
 const REMOVED: usize = 3;
+const ISOLATED: usize = 4;
+const PATCH: usize = 5;
 
 fn conclude(runs: Runs<'_>) -> (Vec<Table>, Vec<Finding>) {
     let mut rows = Vec::new();

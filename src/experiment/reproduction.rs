@@ -2,6 +2,8 @@
 
 use serde::{Serialize, Serializer};
 
+use super::shown::Chart;
+
 /// The result of an experiment over all its runs.
 #[derive(Debug, Clone, Serialize)]
 pub struct Reproduction {
@@ -21,6 +23,9 @@ pub struct Reproduction {
     pub tables: Vec<Table>,
     /// The statements of the document, each with what was measured here.
     pub findings: Vec<Finding>,
+    /// Curves over the runs; the tables have their numbers.
+    #[serde(skip)]
+    pub charts: Vec<Chart>,
 }
 
 /// A table: the figures of the document, where it has them, beside those measured here.
@@ -59,10 +64,64 @@ pub struct Finding {
     pub id: &'static str,
     /// What the document says.
     pub statement: &'static str,
-    /// True when it holds in the figures measured here.
-    pub holds: bool,
-    /// The figures that decide.
+    /// Whether it holds in the figures measured here.
+    pub held: Held,
+    /// The figures that decide, or why none can.
     pub measured: String,
+    /// True where the stand-in for the document's data was chosen so that it holds.
+    pub fitted: bool,
+}
+
+/// Whether a statement holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum Held {
+    /// It does.
+    #[serde(rename = "holds")]
+    Yes,
+    /// It does not.
+    #[serde(rename = "does not")]
+    No,
+    /// Nothing that can be measured here decides.
+    #[serde(rename = "cannot be told")]
+    CannotTell,
+}
+
+impl Held {
+    /// As tables have it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Yes => "holds",
+            Self::No => "does not",
+            Self::CannotTell => "cannot be told",
+        }
+    }
+}
+
+impl From<bool> for Held {
+    fn from(holds: bool) -> Self {
+        if holds { Self::Yes } else { Self::No }
+    }
+}
+
+impl Finding {
+    /// A statement that figures decide.
+    #[must_use]
+    pub fn new(id: &'static str, statement: &'static str, holds: bool, measured: String) -> Self {
+        Self { id, statement, held: holds.into(), measured, fitted: false }
+    }
+
+    /// A statement that nothing measured here decides, and why.
+    #[must_use]
+    pub fn untold(id: &'static str, statement: &'static str, why: impl Into<String>) -> Self {
+        Self { id, statement, held: Held::CannotTell, measured: why.into(), fitted: false }
+    }
+
+    /// The same of a stand-in that was chosen so that it holds.
+    #[must_use]
+    pub fn fitted(self) -> Self {
+        Self { fitted: true, ..self }
+    }
 }
 
 impl Cell {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::record::{Record, Wild};
+use super::shown::Shown;
 use crate::error::{Error, Result};
 use crate::method::shared::FLOOR;
 use crate::review::Decisions;
@@ -73,6 +74,12 @@ impl<'a> Trial<'a> {
         };
         let samples = Samples::of(channel, &track.time);
         Ok(Self { record, track, samples })
+    }
+
+    /// The record with a result on it, to be drawn.
+    #[must_use]
+    pub fn shown(self, title: &'static str, outcome: Outcome) -> Shown {
+        Shown { title, track: self.track, samples: self.samples, outcome }
     }
 
     /// Judges and repairs the first channel. A method that needs a rate gets the second signal.

@@ -10,7 +10,7 @@ use crate::track::printable;
 pub(super) const STYLE: &str = include_str!("html/style.css");
 
 /// What a browser may do for the page: nothing is fetched and nothing runs, whatever a name in it tries.
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+pub(super) const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
 
 /// Text made safe to stand in an element or an attribute.
 pub(super) fn escaped(text: &str) -> String {
@@ -161,7 +161,8 @@ pub(super) fn labelled(svg: &str, caption: &str) -> String {
     svg.replacen(r#"role="img""#, &format!(r#"role="img" aria-label="{}""#, escaped(caption)), 1)
 }
 
-fn legend(out: &mut String) {
+/// What the marks of pictures mean.
+pub(super) fn legend(out: &mut String) {
     out.push_str("<p class=\"legend\">");
     for (_, class, shape, words) in STATES {
         let _ = write!(out, "<span><i class=\"{class}\">{shape}</i> {words}</span> ");

@@ -22,9 +22,9 @@ pub fn reproduction_text(result: &Reproduction) -> String {
     }
     out.push('\n');
     for finding in &result.findings {
-        let word = if finding.holds { "holds   " } else { "does not" };
-        let text = format!("{}. Here: {}.", finding.statement, finding.measured);
-        out.push_str(&wrapped(&text, &format!("  {word}  "), "            "));
+        let fitted = if finding.fitted { " The stand-in was fitted to this." } else { "" };
+        let text = format!("{}. Here: {}.{fitted}", finding.statement, finding.measured);
+        out.push_str(&wrapped(&text, &format!("  {:14}  ", finding.held.word()), "                  "));
     }
     out
 }

@@ -4,14 +4,15 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::inspection::remarks;
+use super::inspection::{remarks, short};
 use super::written::Written;
 use crate::counted::{counted, plural};
 use crate::error::{Error, Result};
 use crate::method::{Verdict, Way};
 use crate::param::Settings;
-use crate::score::{FinalError, Scores, final_error};
+use crate::score::{FinalError, Scores, SplineResidual, final_error, spline_residual};
 use crate::session::{Analysed, Counts, Detection, Outcome, Session};
+use crate::stop::Stop;
 use crate::track::{Track, printable};
 
 /// A result in a nutshell.
@@ -75,6 +76,9 @@ pub struct ChannelSummary {
     /// What the record's own noise is, where the floor comes from the record.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub calibration: Option<CalibrationSummary>,
+    /// Standard deviation about a smoothing spline, eq. (2) of \[000\], before and after the repair, in channel units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spline_residual: Option<SplineResidual>,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Against the truth, where it is known.
@@ -143,6 +147,8 @@ impl Summary {
                 segments: detection.segments.len(),
                 restarts: restarts.collect(),
                 calibration: calibration(detection, &track.channels[*index].unit),
+                // Nobody stops it.
+                spline_residual: spline_residual(outcome, &series, &Stop::never()).unwrap_or_default(),
                 warnings: outcome.warnings(),
                 score: track.truth_for(&plan.channel).map(|truth| Scores::of(outcome, &series, truth)),
                 final_error: None,
@@ -250,6 +256,9 @@ impl Summary {
             if let Some(period) = c.period {
                 let _ = writeln!(out, "  circular: judged unwrapped, period {period}");
             }
+            if let Some(residual) = &c.spline_residual {
+                let _ = writeln!(out, "  {}", residual_line(residual));
+            }
             if let Some(s) = &c.score {
                 let _ = writeln!(out, "  truth: {}", score_line(s));
             }
@@ -267,6 +276,11 @@ impl Summary {
         out += &self.written.as_ref().map(Written::text).unwrap_or_default();
         out
     }
+}
+
+/// The residual of eq. (2) in a line.
+pub(super) fn residual_line(SplineResidual { before, after }: &SplineResidual) -> String {
+    format!("deviation from a smoothing spline: {} before the repair, {} after it", short(*before), short(*after))
 }
 
 /// A score in a line.

@@ -7,12 +7,14 @@ use crate::stop::Stop;
 use crate::track::{Channel, Series, TimeAxis, Track};
 
 mod axes;
+mod chart;
 mod close;
 mod curve;
 mod histogram;
 mod marks;
 mod picture;
 
+pub(super) use chart::{CURVES, chart};
 pub(super) use marks::STATES;
 
 /// A picture with the words under it.

@@ -43,6 +43,7 @@ pub(crate) fn all() -> Vec<(&'static str, Vec<Part>)> {
             ],
         ),
         ("choosing.md", vec![("advice", advice())]),
+        ("methods.md", vec![("choices", wildpoint::batch::choices_table())]),
     ]
 }
 

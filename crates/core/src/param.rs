@@ -8,10 +8,12 @@ use crate::error::{Error, Result, nearest};
 
 mod duration;
 mod numbers;
+mod paper;
 mod settings;
 mod value;
 
 pub use numbers::Numbers;
+pub use paper::Paper;
 pub use settings::Settings;
 pub use value::{Choice, Value};
 
@@ -31,8 +33,8 @@ pub struct Param {
     pub kind: Kind,
     /// The value that works on real tracks.
     pub default: Value,
-    /// What the source document prescribes, where that is something else.
-    pub paper: Option<Value>,
+    /// The value in the settings of the source document, where that is another.
+    pub paper: Option<Paper>,
     /// False when the value cannot change the result under the other settings: the panel hides it then.
     pub matters: fn(&Settings) -> bool,
 }
@@ -107,7 +109,7 @@ impl Param {
 
     /// The same parameter with another paper value.
     #[must_use]
-    pub const fn with_paper(mut self, paper: Option<Value>) -> Self {
+    pub const fn with_paper(mut self, paper: Option<Paper>) -> Self {
         self.paper = paper;
         self
     }
@@ -137,13 +139,12 @@ impl Param {
         let time = if self.takes_durations() { " | a duration like 30s" } else { "" };
         match self.kind {
             Kind::Whole { min, max, .. } => format!("{min} .. {max}{time}"),
-            Kind::Real { min, max, .. } => format!("{min} .. {max}"),
+            Kind::Real { min, max, .. } => format!("{} .. {}", bound(min), bound(max)),
             Kind::Choice(words) => words.join(" | "),
             Kind::Switch => "true | false".into(),
             Kind::RealOr { words, min, max } => {
-                let least = if min == f64::MIN_POSITIVE { "above 0".into() } else { format!("from {min}") };
-                let most = if max > 1e15 { format!("{max:e}") } else { max.to_string() };
-                format!("{} | a number {least} to {most}", words.join(" | "))
+                let least = if min == f64::MIN_POSITIVE { "above 0".into() } else { format!("from {}", bound(min)) };
+                format!("{} | a number {least} to {}", words.join(" | "), bound(max))
             }
             Kind::WholeOrOff { min, max } => format!("off | {min} .. {max}{time}"),
             Kind::Numbers => format!("up to {} numbers", Numbers::MOST),
@@ -260,6 +261,11 @@ impl Step {
     }
 }
 
+/// A limit of a range, as short as it can be told.
+fn bound(x: f64) -> String {
+    if x.abs() > 1e15 || (x != 0.0 && x.abs() < 1e-5) { format!("{x:e}") } else { x.to_string() }
+}
+
 fn word(words: &'static [&'static str], text: &str) -> Option<Value> {
     words.iter().find(|w| **w == text).map(|w| Value::Word(w))
 }
@@ -299,6 +305,10 @@ mod tests {
         assert_eq!(of(0.0, 1e300), "auto | off | a number from 0 to 1e300");
         assert_eq!(of(f64::MIN_POSITIVE, 1e300), "auto | off | a number above 0 to 1e300");
         assert_eq!(of(1.0, 1000.0), "auto | off | a number from 1 to 1000");
+        let real = |min, max| Param { kind: Kind::Real { min, max, step: Step::Add(1.0) }, ..K }.range();
+        assert_eq!(real(0.0, 1e300), "0 .. 1e300", "not 301 digits");
+        assert_eq!(real(-1e300, 1e-9), "-1e300 .. 1e-9");
+        assert_eq!(real(0.001, 0.5), "0.001 .. 0.5");
     }
 
     #[test]

@@ -5,8 +5,10 @@ use crate::method::Verdict;
 use crate::series::Series;
 
 mod detail;
+mod residual;
 
 pub use detail::{Events, FinalError, Part, RunLength, Scores, final_error};
+pub use residual::{SplineResidual, spline_residual};
 
 /// Hits and misses against a truth column, over all rows that it marks. Section 1 of `docs/methods.md`.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]

@@ -1,6 +1,6 @@
 //! What a report says of a channel.
 
-use super::super::summary::{ChannelSummary, score_line};
+use super::super::summary::{ChannelSummary, residual_line, score_line};
 use super::super::svg::{Pictures, figures};
 use super::flagged::{self, Flagged};
 use super::{Section, Table};
@@ -25,6 +25,7 @@ pub(super) fn section(
     let chosen = repair::chosen(&plan.setup.repair);
     let calibration = summary.calibration.as_ref().map(|found| format!("the record: {}", found.words));
     let mut notes: Vec<String> = calibration.into_iter().chain(summary.warnings.iter().cloned()).collect();
+    notes.extend(summary.spline_residual.as_ref().map(residual_line));
     notes.extend(summary.score.as_ref().map(|s| format!("truth: {}", score_line(s))));
     notes.extend(
         summary
@@ -123,7 +124,7 @@ fn settings(plan: &Plan, unit: &str) -> Table {
 
 fn row(param: &Param, value: Value, default: &Settings, paper: Option<&Settings>) -> Vec<String> {
     let is = |settings: &Settings| settings.get(param.key) == Some(value);
-    let origin = match (is(default), paper.is_some_and(is) && param.paper.is_some()) {
+    let origin = match (is(default), paper.is_some_and(is) && param.paper.is_some_and(|p| p.printed)) {
         (true, true) => "default and paper",
         (true, false) => "default",
         (false, true) => "as in the paper",

@@ -1,4 +1,4 @@
-//! The overview: the whole record in a few rows, with its own rail and the part that the trace shows.
+//! The overview, a sparkline of the whole record in a few rows, with its own rail and the part that the trace shows.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;

@@ -13,6 +13,7 @@ use super::super::plot::Glyphs;
 use super::super::update::{narrowed, note, value_text};
 use super::files::end_of;
 use super::{clear, detectability, fit};
+use crate::experiment::{self, CHOICES};
 use crate::track::printable;
 
 /// A row that can be chosen: where it is on the screen, and its index.
@@ -131,11 +132,22 @@ fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) -> Vec<
     };
     let found = narrowed(model, picker);
     let groups = found.windows(2).filter(|w| w[0].group != w[1].group).count();
-    let wanted = u16::try_from(found.len() + groups + 5).unwrap_or(u16::MAX);
+    let advises = picker.kind == PickerKind::Method;
+    let below = if advises { ADVICE } else { 0 };
+    let wanted = u16::try_from(found.len() + groups + 5).unwrap_or(u16::MAX).saturating_add(below);
     let inside = popup(model, title, (76, wanted.max(8)), area, buffer);
     typed(model, "filter: ", &picker.filter, inside.width)
         .render(Rect { height: inside.height.min(1), ..inside }, buffer);
-    let body = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1), ..inside };
+    // The list comes first.
+    let below = if inside.height > 4 * ADVICE { below } else { 0 };
+    let body = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1 + below), ..inside };
+    if let Some(entry) = found.get(picker.choice).filter(|_| below > 0) {
+        let foot = Rect { y: body.bottom(), height: below, ..inside };
+        let lines = when(&entry.id, usize::from(foot.width));
+        for (line, row) in lines.into_iter().zip(foot.rows()) {
+            Line::styled(line, theme.dim).render(row, buffer);
+        }
+    }
     let mut lines = Vec::new();
     let methods = picker.kind == PickerKind::Method;
     if methods && let Some(about) = detectability::about_list(model) {
@@ -166,6 +178,18 @@ fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) -> Vec<
     }
     let from = (choice_row + 1).saturating_sub(usize::from(body.height));
     choices(model, lines, from, body, buffer)
+}
+
+/// Rows below the list of methods that say when the chosen one is to be taken.
+const ADVICE: u16 = 3;
+
+/// When a method is to be taken, as the documents and our figures have it.
+fn when(id: &str, width: usize) -> Vec<String> {
+    let of = CHOICES.iter().filter(|choice| choice.method == id);
+    let text = |c: &experiment::Choice| {
+        format!("{} ({}), {}: {}. Here: {}.", c.outliers, c.mode(), c.record, c.document, c.measured())
+    };
+    of.flat_map(|choice| super::parameters::wrapped(&text(choice), width)).collect()
 }
 
 /// A prompt takes the line on which the program speaks, with what is wrong above it.

@@ -134,7 +134,7 @@ fn blocks(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
     if model.focus == Panel::Parameters
         && let Some(p) = model.knob().param()
     {
-        let paper = p.paper.map_or(String::new(), |v| format!(", paper {v}"));
+        let paper = p.paper.map_or(String::new(), |paper| format!(", paper {}", paper.value));
         let mut help = vec![(String::new(), false)];
         help.extend(block(&format!("{} [{}], default {}{paper}", p.help, p.range(), p.default), false));
         blocks.push(help);

@@ -4,7 +4,7 @@ use super::predictor::{self, Answer, Batch, Model, Prediction, RateLimit, Rules,
 use super::{About, Judged, Method, Own, Segment, reaches, shared};
 use crate::math::huber::{HuberScale, Update};
 use crate::math::line_of_five::LineOfFive;
-use crate::param::{Kind, Param, Settings, Step, Value, always};
+use crate::param::{Kind, Paper, Param, Settings, Step, Value, always};
 use crate::stop::{Stop, Stopped};
 
 /// The line through the last five samples, judged by the Huber scale of the latest prediction residuals.
@@ -24,7 +24,10 @@ static PARAMS: &[Param] = &[
     shared::DOUBT,
 ];
 
-const K: Param = shared::K.with_default(Value::Real(3.5)).with_paper(Some(Value::Real(3.0)));
+const K: Param = shared::K.with_default(Value::Real(3.5)).with_paper(Some(Paper::printed(
+    Value::Real(1.5),
+    "[001] decides at its C of 1.5 scales, where about one good sample in ten is flagged",
+)));
 
 const WINDOW: Param = Param {
     key: "window",
@@ -32,7 +35,7 @@ const WINDOW: Param = Param {
     unit: "samples",
     kind: Kind::Whole { min: 16, max: 100, step: 1 },
     default: Value::Whole(30),
-    paper: Some(Value::Whole(20)),
+    paper: Some(Paper::printed(Value::Whole(20), "the upper end of the 16 to 30 of [001]: the steadiest scale")),
     matters: always,
 };
 
@@ -54,7 +57,7 @@ const UPDATE: Param = Param {
     unit: "",
     kind: Kind::Choice(&["winsor", "printed"]),
     default: Value::Word("winsor"),
-    paper: Some(Value::Word("printed")),
+    paper: Some(Paper::printed(Value::Word("printed"), "eq. (34) takes too small a scale, and freezes it")),
     matters: always,
 };
 

@@ -12,7 +12,7 @@ pub struct Chauvenet;
 static PARAMS: [Param; 7] = [
     shared::TREND_ORDER,
     shared::REFIT,
-    shared::MAX_PASSES,
+    shared::MAX_PASSES_OPEN,
     shared::BLOCK,
     shared::MAX_GAP,
     shared::FLOOR,

@@ -7,7 +7,7 @@ use super::window::{self, Edge, Windows};
 use super::{About, Judged, Method, Own, Segment, Verdict, exceeds, reaches, shared};
 use crate::math::order::{MAD_TO_SIGMA, median_of_many};
 use crate::math::pieces::{self, PIECE};
-use crate::param::{Kind, Param, Settings, Value, always};
+use crate::param::{Kind, Paper, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
 /// The method `diff-median` of section 5 of `docs/methods.md`.
@@ -21,7 +21,7 @@ const MODE: Param = Param {
     unit: "",
     kind: Kind::Choice(&["switching", "plain"]),
     default: Value::Word("switching"),
-    paper: Some(Value::Word("plain")),
+    paper: Some(Paper::printed(Value::Word("plain"), "smoothed differences that are summed up drift away from noisy data")),
     matters: always,
 };
 

@@ -1,19 +1,34 @@
 //! Grubbs' test of the most deviant sample, one at a time.
 
-use super::trend::{self, Criterion, Critical, OneAtATime};
+use super::trend::{self, Chance, Criterion, Critical, OneAtATime};
 use super::{About, Judged, Method, Own, Segment, shared};
-use crate::param::{Param, Settings};
+use crate::param::{Kind, Paper, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
 /// The method `grubbs` of section 2 of `docs/methods.md`.
 #[derive(Debug, Clone, Copy)]
 pub struct Grubbs;
 
-static PARAMS: [Param; 8] = [
+const SIDES: Param = Param {
+    key: "sides",
+    help: "two: alpha is shared by the largest and the smallest (alpha / 2n each); one: each is tested at alpha / n, as the \
+           table of [001] has it (2.41 for 15 samples at 0.05; 2.55 with two), so that both together come to 2 alpha",
+    unit: "",
+    kind: Kind::Choice(&["two", "one"]),
+    default: Value::Word("two"),
+    paper: Some(Paper::printed(
+        Value::Word("one"),
+        "outliers lie on either side, and alpha is to be the chance of a false alarm on both together",
+    )),
+    matters: always,
+};
+
+static PARAMS: [Param; 9] = [
     shared::ALPHA,
+    SIDES,
     shared::TREND_ORDER,
     shared::REFIT,
-    shared::MAX_PASSES,
+    shared::MAX_PASSES_OPEN,
     shared::BLOCK,
     shared::MAX_GAP,
     shared::FLOOR,
@@ -25,7 +40,7 @@ static ABOUT: About = About {
     name: "Grubbs",
     family: shared::WHOLE_SEGMENT,
     source: "[001] s.2",
-    advice: "Takes out the most deviant sample, again and again, as long as it exceeds the largest that clean data of this size would show. alpha is the chance of one false alarm in a whole block. For 20 to 100 samples with few wild points ([001] calls it the best of its criteria): many of them mask each other, and it then finds hardly any; use gesd.",
+    advice: "Takes out the most deviant sample, again and again, as long as it exceeds the largest that clean data of this size would show. alpha is the chance of one false alarm in a whole block (sides = one: on either side). For 20 to 100 samples with few wild points ([001] calls it the best of its criteria): many of them mask each other, and it then finds hardly any; use gesd.",
     params: &PARAMS,
     own: Own::Remove,
     needs_rate: false,
@@ -46,5 +61,6 @@ impl Method for Grubbs {
 }
 
 fn criterion(settings: &Settings) -> impl Criterion {
-    OneAtATime(Critical::new(settings.real(shared::ALPHA.key), true))
+    let chance = if settings.word(SIDES.key) == "one" { Chance::OfOneSide } else { Chance::OfBlock };
+    OneAtATime(Critical::new(settings.real(shared::ALPHA.key), chance))
 }

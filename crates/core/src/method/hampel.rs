@@ -12,7 +12,7 @@ pub struct Hampel;
 static PARAMS: [Param; 9] = [
     shared::WINDOW.with_paper(None),
     shared::K,
-    shared::SCALE.with_paper(None),
+    shared::AROUND_SCALE.with_paper(None),
     shared::EDGE.with_paper(None),
     shared::DETREND.with_paper(None),
     shared::NOISE_FLOOR.with_paper(None),

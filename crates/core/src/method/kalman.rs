@@ -2,7 +2,7 @@
 
 use super::predictor::{Engine, Page, feed};
 use super::{About, Damaged, Judged, Method, Own, Segment, Together, Verdict, Way, shared};
-use crate::param::{Kind, Param, Settings, Step, Value, always};
+use crate::param::{Kind, Paper, Param, Settings, Step, Value, always};
 use crate::series::Series;
 use crate::stop::{Stop, Stopped};
 
@@ -88,7 +88,10 @@ const GATE_CAP: Param = Param {
     unit: "",
     kind: Kind::RealOr { words: &["off"], min: 1.0, max: 1000.0 },
     default: Value::Real(2.0),
-    paper: Some(Value::Word("off")),
+    paper: Some(Paper::printed(
+        Value::Word("off"),
+        "the gate of a filter that coasts opens until the patch itself is let in",
+    )),
     matters: always,
 };
 
@@ -109,11 +112,11 @@ const FILL: Param = Param {
     unit: "",
     kind: Kind::Choice(&["polynomial", "spline"]),
     default: Value::Word("polynomial"),
-    paper: Some(Value::Word("spline")),
+    paper: Some(Paper::printed(Value::Word("spline"), "a spline goes through noisy samples: 2.3 sigma against 0.5")),
     matters: always,
 };
 
-const MAX_RUN: Param = shared::MAX_RUN.with_default(Value::Whole(25)).with_paper(None);
+const MAX_RUN: Param = shared::MAX_RUN.with_default(Value::Whole(25));
 
 static ABOUT: About = About {
     id: "kalman",

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{About, Damaged, Judged, Method, Own, Segment, shared};
 use crate::math::order::{MAD_TO_SIGMA, median_of_many};
 use crate::math::{integral, leave_one_out, pieces};
-use crate::param::{Choice, Kind, Param, Settings, Value, always};
+use crate::param::{Choice, Kind, Paper, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
 /// Carries the neighbours' values to the sample by the integral of a second channel that measures the rate.
@@ -22,7 +22,10 @@ const REPAIR_RULE: Param = Param {
     unit: "",
     kind: Kind::Choice(&[BRIDGE, "expected"]),
     default: Value::Word(BRIDGE),
-    paper: Some(Value::Word("expected")),
+    paper: Some(Paper::printed(
+        Value::Word("expected"),
+        "the median over a window holds the outliers of the run that is repaired; a bridge holds none",
+    )),
     matters: always,
 };
 
@@ -36,8 +39,7 @@ const WINDOW: Param = Param {
     unit: "samples",
     kind: Kind::Whole { min: 4, max: 1001, step: 2 },
     default: Value::Whole(401),
-    // What the program had before: the document names none.
-    paper: Some(Value::Whole(31)),
+    paper: Some(Paper::open(Value::Whole(31), "a patch of half the window or more is not seen; [001] gives no window")),
     matters: always,
 };
 

@@ -12,7 +12,7 @@ pub struct MeanWindow;
 static PARAMS: [Param; 10] = [
     shared::WINDOW,
     shared::K,
-    shared::SCALE,
+    shared::AROUND_SCALE,
     shared::FEEDBACK,
     shared::EDGE,
     shared::DETREND,

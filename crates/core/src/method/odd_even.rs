@@ -25,7 +25,7 @@ static PARAMS: [Param; 9] = [
     SPLITS,
     shared::TREND_ORDER,
     shared::REFIT,
-    shared::MAX_PASSES,
+    shared::MAX_PASSES_OPEN,
     shared::BLOCK,
     shared::MAX_GAP,
     shared::FLOOR,

@@ -3,7 +3,7 @@
 use super::window::{self, PolyRule};
 use super::{About, Judged, Method, Own, Segment, shared};
 use crate::math::polyfit::Polynomial;
-use crate::param::{Kind, Param, Settings, Value, always};
+use crate::param::{Kind, Paper, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
 /// The method `poly-window` of section 3 of `docs/methods.md`.
@@ -26,7 +26,10 @@ const GUARD: Param = Param {
     unit: "",
     kind: Kind::Switch,
     default: Value::Switch(true),
-    paper: Some(Value::Switch(false)),
+    paper: Some(Paper::printed(
+        Value::Switch(false),
+        "a window of replaced samples follows itself, and the feedback runs away",
+    )),
     matters: window::has_feedback,
 };
 

@@ -1,6 +1,6 @@
 //! Romanovsky's criterion: Student's t for the most deviant sample, one at a time.
 
-use super::trend::{self, Criterion, Critical, OneAtATime};
+use super::trend::{self, Chance, Criterion, Critical, OneAtATime};
 use super::{About, Judged, Method, Own, Segment, shared};
 use crate::param::{Param, Settings};
 use crate::stop::{Stop, Stopped};
@@ -13,7 +13,7 @@ static PARAMS: [Param; 8] = [
     shared::ALPHA,
     shared::TREND_ORDER,
     shared::REFIT,
-    shared::MAX_PASSES,
+    shared::MAX_PASSES_OPEN,
     shared::BLOCK,
     shared::MAX_GAP,
     shared::FLOOR,
@@ -46,5 +46,5 @@ impl Method for Romanovsky {
 }
 
 fn criterion(settings: &Settings) -> impl Criterion {
-    OneAtATime(Critical::new(settings.real(shared::ALPHA.key), false))
+    OneAtATime(Critical::new(settings.real(shared::ALPHA.key), Chance::OfSample))
 }

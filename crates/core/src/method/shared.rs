@@ -1,6 +1,6 @@
 //! Parameters that several methods share, each declared once.
 
-use crate::param::{Choice, Kind, Param, Settings, Step, Value, always};
+use crate::param::{Choice, Kind, Paper, Param, Settings, Step, Value, always};
 
 /// The multiplier of the scale; sections give it their own default.
 pub const K: Param = Param {
@@ -28,11 +28,14 @@ pub const MAX_GAP: Param = Param {
 pub const FLOOR: Param = Param {
     key: "floor",
     help: "lower bound on any scale; record: where the residuals of this record stop being noise (calibration), for each \
-           sample; auto: half the smallest step of the data",
+           sample; auto: half the smallest step or third difference of the data other than 0",
     unit: "channel units",
     kind: Kind::RealOr { words: &[RECORD, "auto"], min: 0.0, max: 1e300 },
     default: Value::Word(RECORD),
-    paper: Some(Value::Word("auto")),
+    paper: Some(Paper::open(
+        Value::Word("auto"),
+        "the documents know no calibration: real records are no white noise, and without it they are flagged all over",
+    )),
     matters: always,
 };
 
@@ -76,7 +79,10 @@ pub const WINDOW: Param = Param {
     unit: "samples",
     kind: Kind::Whole { min: 3, max: 1001, step: 2 },
     default: Value::Whole(21),
-    paper: Some(Value::Whole(10)),
+    paper: Some(Paper::printed(
+        Value::Whole(10),
+        "a residual test whose scale holds the tested sample reaches no 3 scales in a window of 10",
+    )),
     matters: always,
 };
 
@@ -87,8 +93,19 @@ pub const SCALE: Param = Param {
     unit: "",
     kind: Kind::Choice(&["mad", "rms"]),
     default: Value::Word("mad"),
-    paper: Some(Value::Word("rms")),
+    paper: Some(Paper::printed(Value::Word("rms"), RMS_SWELLS)),
     matters: always,
+};
+
+const RMS_SWELLS: &str = "a root mean square is swollen by the outliers it is to find";
+
+/// How the scale of a window around a sample is found.
+pub const AROUND_SCALE: Param = Param {
+    help: "mad: 1.4826 * median |x - median(x)|, robust; rms: root mean square about the expected value of the middle; \
+           residuals: root mean square of the samples less their own expected values [003]",
+    kind: Kind::Choice(&["mad", "rms", "residuals"]),
+    paper: Some(Paper::printed(Value::Word("residuals"), RMS_SWELLS)),
+    ..SCALE
 };
 
 /// Whether flagged samples are replaced before the window moves on.
@@ -109,7 +126,10 @@ pub const EDGE: Param = Param {
     unit: "",
     kind: Kind::Choice(&["shrink", "reflect", "zero"]),
     default: Value::Word("shrink"),
-    paper: Some(Value::Word("zero")),
+    paper: Some(Paper::printed(
+        Value::Word("zero"),
+        "zeros beyond the ends are no samples: far from 0 they swamp the first and last windows",
+    )),
     matters: always,
 };
 
@@ -120,7 +140,10 @@ pub const DETREND: Param = Param {
     unit: "",
     kind: Kind::Choice(&["slope", "off"]),
     default: Value::Word("slope"),
-    paper: Some(Value::Word("off")),
+    paper: Some(Paper::printed(
+        Value::Word("off"),
+        "deviations from a window's middle measure the slope of a steep track and hide the outliers in it",
+    )),
     matters: always,
 };
 
@@ -131,7 +154,10 @@ pub const NOISE_FLOOR: Param = Param {
     unit: "",
     kind: Kind::Choice(&["pooled", "off"]),
     default: Value::Word("pooled"),
-    paper: Some(Value::Word("off")),
+    paper: Some(Paper::printed(
+        Value::Word("off"),
+        "the scale of a single window is noisy: four times the false alarms at a window of 21",
+    )),
     matters: always,
 };
 
@@ -153,7 +179,7 @@ pub const REFIT: Param = Param {
     unit: "",
     kind: Kind::Switch,
     default: Value::Switch(true),
-    paper: Some(Value::Switch(false)),
+    paper: Some(Paper::printed(Value::Switch(false), "the first trend is bent by the outliers that are flagged against it")),
     matters: refit_matters,
 };
 
@@ -164,9 +190,14 @@ pub const MAX_PASSES: Param = Param {
     unit: "passes",
     kind: Kind::Whole { min: 0, max: 1000, step: 1 },
     default: Value::Whole(0),
-    paper: Some(Value::Whole(3)),
+    paper: Some(Paper::printed(Value::Whole(3), SMALLER_LATER)),
     matters: always,
 };
+
+const SMALLER_LATER: &str = "smaller outliers show only when the larger ones are gone";
+
+/// [`MAX_PASSES`] of the criteria of \[001\], which does not say how often they go over the data.
+pub const MAX_PASSES_OPEN: Param = MAX_PASSES.with_paper(Some(Paper::open(Value::Whole(3), SMALLER_LATER)));
 
 /// Length of the blocks that have a trend of their own.
 pub const BLOCK: Param = Param {
@@ -207,7 +238,10 @@ pub const MAX_RUN: Param = Param {
     unit: "samples",
     kind: Kind::Whole { min: 0, max: 1000, step: 1 },
     default: Value::Whole(12),
-    paper: Some(Value::Whole(5)),
+    paper: Some(Paper::printed(
+        Value::Whole(0),
+        "a model that a real change has left behind would reject all that follows",
+    )),
     matters: always,
 };
 
@@ -229,7 +263,7 @@ pub const LOOK_BACK: Param = Param {
     unit: "",
     kind: Kind::Switch,
     default: Value::Switch(true),
-    paper: Some(Value::Switch(false)),
+    paper: Some(Paper::printed(Value::Switch(false), "an outlier in the start group, or before it, would not be seen")),
     matters: always,
 };
 

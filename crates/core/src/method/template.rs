@@ -136,7 +136,8 @@ impl Lines {
                 state.sorted.move_to(residual, last);
                 state.sorted.mad_scale(state.sorted.median())
             }
-            Spread::Rms => {
+            // It is made of residuals either way.
+            Spread::Rms | Spread::Residuals => {
                 state.squares.move_to(residual, last);
                 let sums = state.squares.get();
                 (sums.squares_about(0.0) / (sums.count - 1.0)).sqrt()

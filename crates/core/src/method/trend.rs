@@ -18,7 +18,7 @@ mod one_at_a_time;
 mod warning;
 
 pub(super) use at_once::{AtOnce, normal_at};
-pub(super) use one_at_a_time::{Critical, OneAtATime, Removals};
+pub(super) use one_at_a_time::{Chance, Critical, OneAtATime, Removals};
 pub(super) use warning::of_settings as warnings;
 
 /// How a criterion judges the residuals of the survivors, once.

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::{About, Damaged, Direction, Directions, Judged, Method, Own, Segment, TIE, Verdict, Way, shared};
 use crate::math::pieces::{self, PIECE};
-use crate::param::{Choice, Kind, Param, Settings, Value, always};
+use crate::param::{Choice, Kind, Paper, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
 mod candidates;
@@ -26,8 +26,11 @@ static PARAMS: &[Param] = &[
     ORDER,
     VARIABLE_ORDER,
     POINTS,
+    PARABOLA_POINTS,
+    CUBIC_POINTS,
     TWO_POINT,
     START,
+    START_LIMIT,
     MAX_RUN,
     DIRECTION,
     REPAIR_RULE,
@@ -46,9 +49,13 @@ const DELTA: Param = Param {
     matters: always,
 };
 
-const K: Param = shared::K.with_default(Value::Real(4.0)).with_paper(Some(Value::Real(3.0))).with_matters(by_sigma);
+const K: Param = shared::K.with_default(Value::Real(4.0)).with_matters(by_sigma).with_paper(Some(Paper::printed(
+    Value::Real(3.0),
+    "a prediction errs by more than a sample: by 1.3 sigma one step ahead, by 1.9 four steps ahead",
+)));
 
-const SIGMA: Param = shared::SIGMA.with_paper(Some(Value::Word("spline")));
+const SIGMA: Param = shared::SIGMA
+    .with_paper(Some(Paper::printed(Value::Word("spline"), "eq. (2) is inflated by the outliers that it counts in")));
 
 const ORDER: Param = Param {
     key: "order",
@@ -56,7 +63,10 @@ const ORDER: Param = Param {
     unit: "",
     kind: Kind::Whole { min: 1, max: 3, step: 1 },
     default: Value::Whole(2),
-    paper: Some(Value::Whole(3)),
+    paper: Some(Paper::printed(
+        Value::Whole(3),
+        "[000] finds its own third order the worst: it bends after a rejection and lets outliers in",
+    )),
     matters: always,
 };
 
@@ -72,12 +82,33 @@ const VARIABLE_ORDER: Param = Param {
 
 const POINTS: Param = Param {
     key: "points",
-    help: "fitting points of the line; order l is fitted to l times as many",
+    help: "fitting points of the line; order l is fitted to l times as many, unless it has points of its own",
     unit: "samples",
     kind: Kind::Whole { min: 4, max: 30, step: 1 },
     default: Value::Whole(8),
-    paper: Some(Value::Whole(6)),
+    // [000] gives no number.
+    paper: None,
     matters: always,
+};
+
+const PARABOLA_POINTS: Param = Param {
+    key: "parabola_points",
+    help: "fitting points of the parabola (off: twice those of the line)",
+    unit: "samples",
+    kind: Kind::WholeOrOff { min: 4, max: 90 },
+    default: Value::Word("off"),
+    paper: None,
+    matters: |s| takes_part(s, 2),
+};
+
+const CUBIC_POINTS: Param = Param {
+    key: "cubic_points",
+    help: "fitting points of the cubic (off: three times those of the line)",
+    unit: "samples",
+    kind: Kind::WholeOrOff { min: 5, max: 90 },
+    default: Value::Word("off"),
+    paper: None,
+    matters: |s| takes_part(s, 3),
 };
 
 const TWO_POINT: Param = Param {
@@ -86,7 +117,10 @@ const TWO_POINT: Param = Param {
     unit: "",
     kind: Kind::Switch,
     default: Value::Switch(false),
-    paper: None,
+    paper: Some(Paper::printed(
+        Value::Switch(true),
+        "step 4 of [000] goes down to it, but it errs by 2.45 sigma and mainly lets outliers in",
+    )),
     matters: |s| s.switch("variable_order"),
 };
 
@@ -100,7 +134,24 @@ const START: Param = Param {
     matters: always,
 };
 
-const MAX_RUN: Param = shared::MAX_RUN.with_default(Value::Whole(10));
+const START_LIMIT: Param = Param {
+    key: "start_limit",
+    help: "third differences of a start group stay below this: robust, the larger of delta and 9 sigma (two deviations \
+           of a third difference, which has 4.47 sigma); or delta [000]",
+    unit: "",
+    kind: Kind::Choice(&["robust", "delta"]),
+    default: Value::Word("robust"),
+    paper: Some(Paper::printed(
+        Value::Word("delta"),
+        "a third difference has 4.47 sigma: a limit of 4 sigma passes over a third of the good quadruples",
+    )),
+    matters: always,
+};
+
+const MAX_RUN: Param = shared::MAX_RUN.with_default(Value::Whole(10)).with_paper(Some(Paper::printed(
+    Value::Whole(5),
+    "a patch longer than this is taken for a change of the track; [000] sets 5 for its example and leaves it to the case",
+)));
 
 const DIRECTION: Param = Param {
     key: "direction",
@@ -119,7 +170,10 @@ const REPAIR_RULE: Param = Param {
     unit: "",
     kind: Kind::Choice(&["best", "matched"]),
     default: Value::Word("best"),
-    paper: Some(Value::Word("matched")),
+    paper: Some(Paper::printed(
+        Value::Word("matched"),
+        "the directions seldom come back by the same candidate, and what they disagree on is removed",
+    )),
     matters: always,
 };
 
@@ -137,6 +191,12 @@ static ABOUT: About = About {
     own: Own::Remove,
     needs_rate: false,
 };
+
+/// True when polynomials of this order compete.
+fn takes_part(settings: &Settings, order: usize) -> bool {
+    let highest = settings.whole("order");
+    order == highest || (order < highest && settings.switch("variable_order"))
+}
 
 fn by_sigma(settings: &Settings) -> bool {
     settings.choice("delta") == Choice::Word("auto")

@@ -12,6 +12,7 @@ mod baseline;
 mod figures;
 mod geometry;
 mod polynomial;
+mod residuals;
 mod sorted;
 mod statistics;
 mod warning;
@@ -39,8 +40,10 @@ pub(super) enum Center {
 pub(super) enum Spread {
     /// `1.4826 * median |x - median(x)|`.
     Mad,
-    /// `sqrt(sum (x - p)^2 / (n - 1))` about the expected value `p`.
+    /// `sqrt(sum (x - p)^2 / (n - 1))` about the expected value `p` of the middle.
     Rms,
+    /// The same, each sample about its own expected value.
+    Residuals,
 }
 
 /// The settings of a window method.
@@ -74,7 +77,11 @@ impl Rule {
 
 /// How these settings measure a window's scale.
 pub(super) fn spread(settings: &Settings) -> Spread {
-    if settings.word(shared::SCALE.key) == "rms" { Spread::Rms } else { Spread::Mad }
+    match settings.word(shared::SCALE.key) {
+        "rms" => Spread::Rms,
+        "residuals" => Spread::Residuals,
+        _ => Spread::Mad,
+    }
 }
 
 /// True when a flagged sample is replaced before the window moves on.
@@ -127,8 +134,13 @@ pub(super) fn judge(rule: &Rule, segment: &Segment<'_>, stop: &Stop) -> Result<J
     let samples = pieces::collect(n, &check, |c| segment.y[c] - level - base(c))?;
     let mut x = windows.padded(samples, -level, stop)?;
     let mut figures = figures(rule, &x, &windows, stop)?;
+    let mut own = Vec::new();
+    if rule.spread == Spread::Residuals {
+        own = residuals::residuals(&figures, &x, &windows);
+        figures.scale = residuals::scales(&own, &windows, stop)?;
+    }
     let limits = Limits::new(rule.pooled.then_some(&figures.scale[..]), segment, stop)?;
-    if rule.feedback {
+    if rule.feedback && rule.spread != Spread::Residuals {
         return feed_back(rule, &windows, &mut x, |c| base(c) + level, &figures, &limits, stop);
     }
     drop(x);
@@ -137,6 +149,9 @@ pub(super) fn judge(rule: &Rule, segment: &Segment<'_>, stop: &Stop) -> Result<J
             *expected = *expected + base(c) + level;
         }
     })?;
+    if rule.feedback {
+        return residuals::feed_back(rule, &windows, &mut own, figures.expected, &limits, stop);
+    }
     drop(slope);
     pieces::over(&mut figures.scale, &check, |_, scale| scale.iter_mut().for_each(|s| *s = limits.bound(*s)))?;
     Judged::gated(segment.y, figures.expected, figures.scale, rule.k, stop)

@@ -11,25 +11,36 @@ use crate::math::student::student_upper;
 use crate::method::exceeds;
 use crate::stop::{Stop, Stopped};
 
+/// What `alpha` is the chance of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::method) enum Chance {
+    /// A false alarm among all residuals of clean data.
+    OfBlock,
+    /// The same on one side alone: that the largest is one; and likewise the smallest (the tables of Grubbs that
+    /// textbooks print).
+    OfOneSide,
+    /// A false alarm for each residual.
+    OfSample,
+}
+
 /// Critical values of `max |v - mean| / s` among `n` residuals (Grubbs 1969, eq. of section 2 of `docs/methods.md`).
 #[derive(Debug)]
 pub(in crate::method) struct Critical {
     alpha: f64,
-    /// True when `alpha` is the chance of a false alarm among all, not for each sample.
-    family: bool,
+    chance: Chance,
     /// Those of small samples, which blocks ask for again and again.
     known: Vec<OnceLock<f64>>,
 }
 
 impl Critical {
-    /// For one false alarm in `1 / alpha` clean sets of residuals (`family`), or samples.
-    pub(in crate::method) fn new(alpha: f64, family: bool) -> Self {
-        Self { alpha, family, known: (0..2048).map(|_| OnceLock::new()).collect() }
+    /// For one false alarm in `1 / alpha` of what `chance` says.
+    pub(in crate::method) fn new(alpha: f64, chance: Chance) -> Self {
+        Self { alpha, chance, known: (0..2048).map(|_| OnceLock::new()).collect() }
     }
 
     /// `G = (n - 1) / sqrt(n) * sqrt(t^2 / (n - 2 + t^2))` with t the upper quantile of Student's distribution with
-    /// `n - 2` degrees of freedom at `alpha / (2 n)`, or at `alpha / 2` for each sample: then the test is
-    /// Romanovsky's, rearranged. `n` is at least 3.
+    /// `n - 2` degrees of freedom at `alpha / (2 n)`, at `alpha / n` on one side, or at `alpha / 2` for each sample:
+    /// then the test is Romanovsky's, rearranged. `n` is at least 3.
     pub(in crate::method) fn at(&self, n: usize) -> f64 {
         self.known.get(n).map_or_else(|| self.work_out(n), |known| *known.get_or_init(|| self.work_out(n)))
     }
@@ -37,7 +48,11 @@ impl Critical {
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
     fn work_out(&self, n: usize) -> f64 {
         let n = n as f64;
-        let p = if self.family { self.alpha / (2.0 * n) } else { self.alpha / 2.0 };
+        let p = match self.chance {
+            Chance::OfBlock => self.alpha / (2.0 * n),
+            Chance::OfOneSide => self.alpha / n,
+            Chance::OfSample => self.alpha / 2.0,
+        };
         let t = student_upper(p, n - 2.0);
         (n - 1.0) / n.sqrt() * (t * t / (n - 2.0 + t * t)).sqrt()
     }
@@ -129,7 +144,7 @@ mod tests {
     #[test]
     fn critical_values_grow_with_the_sample_and_so_bracket_each_other() {
         for alpha in [0.5, 0.05, 0.01, 1e-9] {
-            let critical = Critical::new(alpha, true);
+            let critical = Critical::new(alpha, Chance::OfBlock);
             let values: Vec<f64> = (3..3000).map(|n| critical.at(n)).collect();
             assert!(values.windows(2).all(|w| w[1] >= w[0] * (1.0 - 1e-12)), "{alpha}");
         }

@@ -22,9 +22,15 @@ pub(super) const NO_CANDIDATE: u8 = 0;
 pub(super) const TWO_POINT: u8 = 4;
 
 impl Candidate {
-    fn of_order(order: usize, points_of_line: usize) -> Self {
+    fn of_order(order: usize, settings: &Settings) -> Self {
+        let own = match order {
+            2 => settings.whole_or_off("parabola_points"),
+            3 => settings.whole_or_off("cubic_points"),
+            _ => None,
+        };
+        let points = own.unwrap_or_else(|| order * settings.whole("points"));
         #[expect(clippy::cast_possible_truncation, reason = "orders are at most 3")]
-        Self { order, points: order * points_of_line, code: order as u8 }
+        Self { order, points, code: order as u8 }
     }
 
     /// How many accepted samples it waits for.
@@ -50,11 +56,11 @@ impl Candidate {
 /// The candidates of these settings, the highest order first.
 #[must_use]
 pub fn candidates(settings: &Settings) -> Vec<Candidate> {
-    let (order, points) = (settings.whole("order"), settings.whole("points"));
+    let order = settings.whole("order");
     if !settings.switch("variable_order") {
-        return vec![Candidate::of_order(order, points)];
+        return vec![Candidate::of_order(order, settings)];
     }
-    let mut list: Vec<Candidate> = (1..=order).rev().map(|l| Candidate::of_order(l, points)).collect();
+    let mut list: Vec<Candidate> = (1..=order).rev().map(|l| Candidate::of_order(l, settings)).collect();
     if settings.switch("two_point") {
         list.push(Candidate { order: 1, points: 2, code: TWO_POINT });
     }
@@ -98,7 +104,7 @@ pub struct Candidates {
     closest: Closest,
 }
 
-/// Start groups accept third differences up to so many noise scales: two deviations of a third difference.
+/// Robust start groups accept third differences up to so many noise scales: two deviations of a third difference.
 const START_SCALES: f64 = 9.0;
 
 impl Candidates {
@@ -114,7 +120,7 @@ impl Candidates {
             recent: Recent::new(room, interval),
             most: room,
             stretch: Vec::with_capacity(room + BATCH),
-            start_limit: START_SCALES * sigma,
+            start_limit: if settings.word("start_limit") == "robust" { START_SCALES * sigma } else { 0.0 },
             t: f64::NAN,
             predicted: [f64::NAN; 4],
             closest: Closest { expected: f64::NAN, code: NO_CANDIDATE },

@@ -11,6 +11,7 @@ fn figures(w: &[f64], rule: &Rule) -> (f64, f64) {
     let scale = match rule.spread {
         Spread::Rms => (w.iter().map(|x| (x - p) * (x - p)).sum::<f64>() / (n - 1.0)).sqrt(),
         Spread::Mad => mad_scale_in_place(&mut w.to_vec(), median(w)),
+        Spread::Residuals => unreachable!("no window has them by itself"),
     };
     (p, scale)
 }
