@@ -30,9 +30,7 @@ mod table;
 mod targets;
 
 pub use interrupted::end_tidily;
-pub use methods::{
-    choices as choices_table, explained as methods_page, is_explained, markdown as methods_table,
-};
+pub use methods::{choices as choices_table, explained as methods_page, is_explained, markdown as methods_table};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

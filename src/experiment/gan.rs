@@ -42,12 +42,7 @@ const PICTURES: [Picture; 3] = [
         preset: Preset::Paper,
         keys: &[],
     },
-    Picture {
-        title: "The same with the defaults",
-        method: "kalman",
-        preset: Preset::Default,
-        keys: &[],
-    },
+    Picture { title: "The same with the defaults", method: "kalman", preset: Preset::Default, keys: &[] },
 ];
 
 const SAMPLES: usize = 500;

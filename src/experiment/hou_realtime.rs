@@ -47,18 +47,8 @@ const PICTURES: [Picture; 4] = [
         preset: Preset::Paper,
         keys: GIVEN,
     },
-    Picture {
-        title: "Figures 2 and 3: adaptive, as printed",
-        method: "adaptive",
-        preset: Preset::Paper,
-        keys: GIVEN,
-    },
-    Picture {
-        title: "Figures 2 and 3: matched, as printed",
-        method: "matched",
-        preset: Preset::Paper,
-        keys: MATCHED,
-    },
+    Picture { title: "Figures 2 and 3: adaptive, as printed", method: "adaptive", preset: Preset::Paper, keys: GIVEN },
+    Picture { title: "Figures 2 and 3: matched, as printed", method: "matched", preset: Preset::Paper, keys: MATCHED },
 ];
 
 /// Interval in seconds.
@@ -123,8 +113,18 @@ macro_rules! reading {
 /// The readings: as the document prints its rules, with those of this program, and as printed with i in seconds.
 const READINGS: [Reading; 3] = [
     reading!("", "as printed: no rule that ends a run, adaptive at 1.5 scales by eq. (34)", Preset::Paper, false),
-    reading!(" (ours)", "the defaults here: a run of more than 12 ends the model, adaptive at 3.5 scales", Preset::Default, false),
-    reading!(" (i in s)", "as printed, the varying outliers 10 sin(t) with t in seconds (7.50 .. 7.95)", Preset::Paper, true),
+    reading!(
+        " (ours)",
+        "the defaults here: a run of more than 12 ends the model, adaptive at 3.5 scales",
+        Preset::Default,
+        false
+    ),
+    reading!(
+        " (i in s)",
+        "as printed, the varying outliers 10 sin(t) with t in seconds (7.50 .. 7.95)",
+        Preset::Paper,
+        true
+    ),
 ];
 
 /// sin(t) for t = 7.50, 7.55 .. 7.95 s, the times of samples 151 .. 160, written out as those of samples are.

@@ -38,12 +38,7 @@ pub const EXPERIMENT: Experiment = Experiment {
 
 /// The figures of the document.
 const PICTURES: [Picture; 2] = [
-    Picture {
-        title: "Figures 7 and 8: Wright alone",
-        method: "wright",
-        preset: Preset::Paper,
-        keys: &[WHOLE],
-    },
+    Picture { title: "Figures 7 and 8: Wright alone", method: "wright", preset: Preset::Paper, keys: &[WHOLE] },
     Picture {
         title: "Figures 9 to 12: least-squares trend and Wright",
         method: "trend-wright",
@@ -164,7 +159,11 @@ fn conclude(runs: Runs<'_>) -> (Vec<Table>, Vec<Finding>) {
             "trend-and-wright-very-good",
             "Least-squares trend + Wright has a very good effect",
             share("trend-wright") >= 90.0 && share("trend-wright") > share("wright"),
-            format!("it finds {:.0} %, and flags {:.0} others", share("trend-wright"), runs.mean("trend-wright", FALSE)),
+            format!(
+                "it finds {:.0} %, and flags {:.0} others",
+                share("trend-wright"),
+                runs.mean("trend-wright", FALSE)
+            ),
         ),
     ];
     (vec![table], findings)

@@ -37,7 +37,8 @@ pub fn reproduced_html(experiments: &[Reproduced]) -> String {
             }
             let all = experiments.iter().filter(|e| document_of(e.result.source) == of);
             let counts = counted(all.flat_map(|e| &e.result.findings));
-            let _ = writeln!(out, "<section class=\"document\">\n<h2>{}</h2>\n<p>{}</p>", escaped(of), escaped(&counts));
+            let _ =
+                writeln!(out, "<section class=\"document\">\n<h2>{}</h2>\n<p>{}</p>", escaped(of), escaped(&counts));
             document = of;
         }
         section(experiment, &mut out);
@@ -93,7 +94,9 @@ fn section(experiment: &Reproduced, out: &mut String) {
 }
 
 fn findings(findings: &[Finding], out: &mut String) {
-    out.push_str("<div class=\"table\"><table>\n<thead><tr><th></th><th>the document</th><th>here</th></tr></thead>\n<tbody>\n");
+    out.push_str(
+        "<div class=\"table\"><table>\n<thead><tr><th></th><th>the document</th><th>here</th></tr></thead>\n<tbody>\n",
+    );
     for finding in findings {
         let class = match finding.held {
             Held::Yes => "holds",
@@ -145,11 +148,14 @@ fn pictures(shown: &Shown, out: &mut String) {
     let _ = writeln!(out, "<h3>{}</h3>", escaped(shown.title));
     let Some(channel) = shown.track.channels.first() else { return };
     let series = shown.samples.series(channel, &shown.track.time);
-    let figures = svg::figures(&shown.track, series, &shown.outcome);
-    figures.iter().filter(|figure| !figure.small).for_each(|figure| figure_of(&figure.svg, &figure.caption, out));
+    let pictures = svg::figures(&shown.track, channel, series, &shown.outcome);
+    pictures
+        .figures
+        .iter()
+        .filter(|figure| !figure.small)
+        .for_each(|figure| figure_of(&figure.svg, &figure.caption, out));
 }
 
 fn figure_of(svg: &str, caption: &str, out: &mut String) {
-    let _ =
-        writeln!(out, "<figure>{}<figcaption>{}</figcaption></figure>", labelled(svg, caption), escaped(caption));
+    let _ = writeln!(out, "<figure>{}<figcaption>{}</figcaption></figure>", labelled(svg, caption), escaped(caption));
 }

@@ -133,7 +133,7 @@ fn parameters() -> String {
     all.extend(repair::PARAMS.iter().map(|p| (p, vec!["repair"])));
     all.sort_by_key(|(param, _)| param.key);
     let row = |(p, of): (&Param, Vec<&str>)| {
-        let paper = p.paper.map(|v| v.to_string()).unwrap_or_default();
+        let paper = p.paper.map(|paper| paper.value.to_string()).unwrap_or_default();
         let of = if of.len() > 12 { "most".to_owned() } else { of.join(", ") };
         vec![code(p.key), p.default.to_string(), paper, p.unit.into(), p.range(), one_line(p.help), of]
     };

@@ -7,8 +7,8 @@ pub(super) const FORMAT: Format = Format {
     name: "USGS RDB",
     about: "tables of the National Water Information System",
     known_by: "a line of names that begins with `agency_cd` and tabs",
-    maps: "time `datetime`; units from the list of parameters in the comments; columns `_cd` are not channels; remarks \
-           like `Ice` and `Eqp` mean missing",
+    maps: "time `datetime`, in the zone that `tz_cd` tells in each row; units from the list of parameters in the comments; \
+           columns `_cd` are not channels; remarks like `Ice` and `Eqp` mean missing",
     known: |text| header(text).is_some(),
     complete,
     label,
@@ -35,9 +35,6 @@ fn complete(text: &str, known: &mut Known) {
     let names = header(text).and_then(|at| text.lines().nth(at)).unwrap_or("");
     if let Some(time) = names.split('\t').find(|n| *n == "datetime") {
         known.time(time);
-    }
-    if names.contains("\ttz_cd") {
-        known.said.push("times are those of the zones in `tz_cd`, as the file writes them (--time-zone, for example America/New_York, makes them UTC)".to_owned());
     }
 }
 
