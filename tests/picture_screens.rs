@@ -219,3 +219,30 @@ fn all_methods_are_asked_once_and_again_when_the_question_changes() {
     let (state, agreed) = (bench.0.state(), &bench.0.state().consensus.as_ref().unwrap().agreed);
     assert!(agreed.contains(&u32::try_from(state.cursor).unwrap()));
 }
+
+#[test]
+fn detectability_of_the_settings_in_force() {
+    for (label, size) in [("80x24", (80, 24)), ("120x40", (120, 40))] {
+        let bench = Bench::on("demo.csv", UNICODE_DARK).size(size).keys("W");
+        assert!(bench.frame().contains("measuring"), "{}", bench.frame());
+        let bench = bench.measured();
+        assert_snapshot!(format!("detectability_{label}"), bench.frame());
+        // Another knob is another measurement; the same settings again are known.
+        assert!(bench.0.studying.is_none());
+        let turned = bench.keys(".");
+        assert!(turned.0.studying.is_some() && turned.frame().contains("the settings before"), "{}", turned.frame());
+    }
+}
+
+#[test]
+fn the_list_of_methods_shows_what_each_finds_and_takes_the_best() {
+    for (label, size) in [("80x24", (80, 24)), ("120x40", (120, 40))] {
+        let bench = Bench::on("demo.csv", UNICODE_DARK).size(size).keys("m").measured();
+        assert_snapshot!(format!("methods_compared_{label}"), bench.frame());
+        let best = bench.0.state().studied.as_ref().unwrap().advice.best().unwrap().setup.clone();
+        let bench = bench.keys("auto Enter");
+        assert!(bench.0.plan().setup.same_method(&best));
+        assert!(bench.frame().contains("recommended: "), "{}", bench.frame());
+        assert!(bench.keys("u").0.plan().setup.same_method(&wildpoint::session::Setup::standard()));
+    }
+}

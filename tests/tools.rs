@@ -277,3 +277,71 @@ fn a_stream_answers_while_the_sender_waits_and_outlives_a_reader() {
     let output = child.wait_with_output().expect("it ends");
     assert_eq!((output.status.code(), text(&output.stderr).as_str()), (Some(0), ""));
 }
+
+#[test]
+fn advice_is_measured_on_the_record_and_can_be_taken() {
+    let folder = folder();
+    let file = record(folder.path(), "a.csv");
+    let before = std::fs::read(&file).expect("read");
+    let methods = "--method two-sided --method hampel --method wright";
+    let line = format!("advise a.csv --channel x {methods} --json");
+    let advice = json(folder.path(), &line);
+    assert_eq!((advice["samples"].as_u64(), advice["methods"].as_array().map(Vec::len)), (Some(400), Some(3)));
+    let row = |index: usize| &advice["methods"][index];
+    // On a slope of 80 the mean of all samples finds nothing that two neighbours would.
+    assert!(row(0)["recall"].as_f64() > row(2)["recall"].as_f64());
+    let smallest = row(0)["kinds"][0]["smallest"].as_f64().expect("single points are found");
+    // The jitter is half a unit to either side; a wild point of 60 is found for certain.
+    assert!((0.5..30.0).contains(&smallest), "{smallest}");
+    assert_eq!(row(0)["untouched"]["flagged"].as_u64(), Some(WILD.len() as u64));
+    // The clock aside, the same again; another seed puts the wild points elsewhere.
+    let kinds = |advice: &serde_json::Value| advice["methods"][1]["kinds"].to_string();
+    assert_eq!(kinds(&json(folder.path(), &line)), kinds(&advice));
+    assert_ne!(kinds(&json(folder.path(), &format!("{line} --seed 2"))), kinds(&advice));
+    let told = done(folder.path(), &format!("advise a.csv --channel x {methods}"));
+    let best =
+        row(usize::try_from(advice["recommended"].as_u64().expect("one")).expect("small"))["setup"]["method"].clone();
+    let best = best.as_str().expect("a name");
+    assert!(told.contains(&format!("recommended: {best}; finds 95 % of single points from")), "{told}");
+    assert!(told.contains(&format!("to take it: --method {best}")), "{told}");
+    assert_eq!(std::fs::read(&file).expect("read"), before, "the record is as it was");
+}
+
+#[test]
+fn a_record_that_cannot_be_asked_is_refused_with_the_reason() {
+    let folder = folder();
+    std::fs::write(folder.path().join("short.csv"), "t,x\n0,1\n1,2\n2,1\n3,2\n4,1\n5,2\n").expect("written");
+    let error = fails(folder.path(), "advise short.csv", 2);
+    assert!(error.contains("x: the record is too short: 6 samples") && error.contains("wildpoint methods"), "{error}");
+    let error = fails(folder.path(), "sweep short.csv --method auto", 2);
+    assert!(error.contains("--method auto") && error.contains("wildpoint advise"), "{error}");
+}
+
+#[test]
+fn the_recommended_method_is_cleaned_with_and_recorded_with_its_reasons() {
+    let folder = folder();
+    record(folder.path(), "a.csv");
+    let told =
+        done(folder.path(), "clean a.csv --channel x --method auto --repair linear -o b.csv --save-session s.toml");
+    assert!(told.contains("method auto: recommended: "), "{told}");
+    let session = std::fs::read_to_string(folder.path().join("s.toml")).expect("saved");
+    let method = session.lines().find_map(|l| l.strip_prefix("method = ")).expect("a method").trim_matches('"');
+    assert!(session.contains(&format!("# method auto: recommended: {method}; finds 95 %")), "{session}");
+    assert!(session.contains("linear"), "the repair stays: {session}");
+    done(folder.path(), "replay s.toml --check");
+    let error = fails(folder.path(), "clean a.csv --method auto --suggest", 2);
+    assert!(error.contains("both choose"), "{error}");
+    let error = fails(folder.path(), "clean a.csv --method auto --set nonsense=1", 2);
+    assert!(error.contains("nonsense"), "{error}");
+}
+
+#[test]
+fn tuning_never_finds_less_and_keeps_to_the_flags() {
+    let folder = folder();
+    record(folder.path(), "a.csv");
+    let tuned = json(folder.path(), "advise a.csv --channel x --tune hampel --json");
+    let of = |which: &str, key: &str| tuned[which][key].as_f64().expect("a number");
+    assert!(of("after", "recall") >= of("before", "recall"), "{tuned}");
+    let flags = |which: &str| tuned[which]["untouched"]["flagged"].as_u64();
+    assert!(flags("after") <= flags("before") && tuned["tried"].as_u64() > Some(5), "{tuned}");
+}

@@ -86,7 +86,11 @@ pub struct Job {
     subject: Subject,
 }
 
-/// A study that is over, with what it holds for: other settings are measured on its copies.
+/// The copies of the last study: other settings are measured on them.
+#[derive(Debug, Default)]
+pub struct Copies(Mutex<Option<Kept>>);
+
+/// A study that is over, with what it holds for.
 #[derive(Debug)]
 struct Kept {
     track: Arc<Track>,
@@ -146,7 +150,7 @@ impl Job {
     ///
     /// # Errors
     /// [`Error::Stopped`]; what [`Study::new`] gives.
-    fn run(&self, kept: &Mutex<Option<Kept>>, stop: &Stop, mut tell: impl FnMut(Finding, [usize; 2])) -> Result<()> {
+    pub fn run(&self, Copies(kept): &Copies, stop: &Stop, mut tell: impl FnMut(Finding, [usize; 2])) -> Result<()> {
         let setups = self.subject.setups();
         let before = kept.lock().unwrap_or_else(PoisonError::into_inner).take();
         let (study, again) = match before.filter(|kept| self.is_answered_by(kept)) {
@@ -221,14 +225,14 @@ impl Job {
 /// A worker that measures and sends what comes out.
 #[must_use]
 pub fn study(results: Sender<Message>) -> Worker<Job> {
-    let kept = Mutex::new(None);
+    let copies = Copies::default();
     Worker::new(move |generation, job: Job, stop: &Stop| {
         let plan = job.plan;
         let tell = |finding: Finding, rounds: [usize; 2]| {
             // Nobody listens any more when the program is about to end.
             let _ = results.send(Message::Studied { generation, plan, finding, rounds });
         };
-        match job.run(&kept, stop, tell) {
+        match job.run(&copies, stop, tell) {
             Ok(()) | Err(Error::Stopped) => {}
             Err(e) => {
                 let finding = Finding::Nothing(on_one_line(&e));

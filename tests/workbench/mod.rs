@@ -12,6 +12,7 @@ use wildpoint::stop::Stop;
 use wildpoint::track::{LoadOptions, Source, load};
 use wildpoint::tui::advice::Advise;
 use wildpoint::tui::consensus::Poll;
+use wildpoint::tui::detectability::{Copies, Finding, Job, Subject};
 use wildpoint::tui::files::{FileEntry, FileKind, Listing, News, Task};
 use wildpoint::tui::jobs::Judge;
 use wildpoint::tui::message::{Effect, Message};
@@ -56,6 +57,8 @@ impl Bench {
             match effect {
                 Effect::Poll(plan) => self.poll(plan),
                 Effect::Advise(plan) => self.advise(plan),
+                Effect::Study(plan, subject) => self.study(plan, subject),
+                Effect::CancelStudy => {}
                 other => panic!("{other:?} follows on a result"),
             }
         }
@@ -75,6 +78,32 @@ impl Bench {
         self.0.polling = Some(poll.started(7));
         let consensus = Box::new(poll.run(&Stop::never(), |_| {}).unwrap());
         update(&mut self.0, Message::Polled { generation: 7, plan, consensus });
+    }
+
+    /// A measurement of detectability is under way until [`Bench::measured`].
+    fn study(&mut self, plan: usize, subject: Subject) {
+        self.0.studying = Some(Job::new(&self.0, plan, subject).started(7));
+    }
+
+    /// The measurement that is under way is over.
+    pub fn measured(mut self) -> Self {
+        let Some(studying) = self.0.studying.clone() else { panic!("nothing is being measured") };
+        let job = Job::new(&self.0, studying.plan, studying.subject);
+        let mut last = None;
+        job.run(&Copies::default(), &Stop::never(), |finding, rounds| last = Some((finding, rounds))).unwrap();
+        let Some((mut finding, rounds)) = last else { panic!("nothing was found") };
+        if let Finding::Methods(studied) = &mut finding {
+            // A still frame has no clock.
+            studied.advice.methods.iter_mut().for_each(|m| m.milliseconds = 0.0);
+        }
+        let message = Message::Studied { generation: 7, plan: studying.plan, finding, rounds };
+        for effect in update(&mut self.0, message) {
+            match effect {
+                Effect::Analyse(plan) => self.judge(plan),
+                other => panic!("{other:?} follows on a measurement"),
+            }
+        }
+        self
     }
 
     pub fn size(mut self, (width, height): (u16, u16)) -> Self {
@@ -108,7 +137,8 @@ impl Bench {
                 Effect::Analyse(plan) => self.judge(plan),
                 Effect::Poll(plan) => self.poll(plan),
                 Effect::Advise(plan) => self.advise(plan),
-                Effect::CancelPoll => {}
+                Effect::Study(plan, subject) => self.study(plan, subject),
+                Effect::CancelPoll | Effect::CancelStudy => {}
                 Effect::Files(task) => self.answer(task),
                 other => panic!("{other:?} is nothing for a still frame"),
             }
