@@ -35,13 +35,23 @@ fn one(screen: &Screen, row: u16, width: u16) -> String {
     let mut from = 0;
     while from < width {
         let Some(first) = screen.cell(row, from) else { break };
-        let same = |c: &u16| screen.cell(row, *c).is_some_and(|cell| look(cell) == look(first));
+        if is_invisible(first) {
+            from += 1;
+            continue;
+        }
+        // A blank goes with what is before it: its ink depends on how the screen came to be.
+        let same = |c: &u16| screen.cell(row, *c).is_some_and(|cell| is_invisible(cell) || look(cell) == look(first));
         let to = (from..width).take_while(same).last().map_or(from + 1, |last| last + 1);
         let texts: Vec<&str> = (from..to).filter_map(|c| screen.cell(row, c)).map(Cell::contents).collect();
         run(&texts, from, &look(first), &mut out);
         from = to;
     }
     out
+}
+
+/// Whether a cell shows nothing but the ground.
+fn is_invisible(cell: &Cell) -> bool {
+    cell.contents().trim().is_empty() && look(cell).ground.is_none() && !cell.underline()
 }
 
 fn look(cell: &Cell) -> Look {
