@@ -135,7 +135,7 @@ fn a_record_with_an_odd_name_is_found_again_or_its_session_refused() {
     let ran = command.output().unwrap();
     let err = String::from_utf8_lossy(&ran.stderr);
     assert!(
-        ran.status.code() == Some(2) && err.contains("its name is no UTF-8") && err.contains("another name"),
+        ran.status.code() == Some(2) && err.contains("its name is not UTF-8") && err.contains("another name"),
         "{err}"
     );
     assert_eq!(std::fs::read_dir(folder.path("")).unwrap().count(), before, "nothing was written");

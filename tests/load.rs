@@ -194,7 +194,7 @@ fn truth_and_chosen_columns() {
     assert_eq!((names, track.truth), (vec!["b", "a"], Some(vec![false, true])));
     let fails = |options: LoadOptions| load_with("two_truths.csv", &options).unwrap_err().to_string();
     let e = fails(LoadOptions { truth: Some("b".into()), ..LoadOptions::default() });
-    assert!(e.contains("`b` is no truth column: it holds 2"), "{e}");
+    assert!(e.contains("`b` is not a truth column: it holds 2"), "{e}");
     let e = fails(LoadOptions { channels: vec!["time".into()], ..LoadOptions::default() });
     assert!(e.contains("`time` is the time"), "{e}");
     let e = fails(LoadOptions { channels: vec!["a_thruth".into()], ..LoadOptions::default() });

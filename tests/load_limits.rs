@@ -167,7 +167,7 @@ fn a_device_is_refused_and_not_read_to_its_end() {
     let e = load(&Source::File(device.clone()), &LoadOptions::default()).unwrap_err().to_string();
     assert!(e.contains("a pipe or a device") && e.contains("wildpoint stream"), "{e}");
     let e = read(&device).unwrap_err().to_string();
-    assert!(e.contains("no ordinary file"), "{e}");
+    assert!(e.contains("not a regular file"), "{e}");
 }
 
 #[test]
