@@ -292,7 +292,7 @@ fn a_time_column_that_cannot_be_read_is_told() {
 fn numbers_with_commas_between_commas_are_told() {
     let text = "t,x,y\n0,\"1,5\",1\n1,\"2,5\",2\n2,\"3,5\",3\n";
     let told = notes(text, &LoadOptions::default());
-    assert!(matches!(&told[..], [note] if note.starts_with("`x` holds numbers with commas: say --decimal-comma")));
+    assert!(matches!(&told[..], [note] if note.starts_with("`x` holds numbers with commas: use --decimal-comma")));
     assert_eq!(notes(text, &LoadOptions { decimal_comma: Some(true), ..LoadOptions::default() }), [""; 0]);
     assert_eq!(notes("t,x,y\n0,\"1,a\",1\n1,\"2,5\",2\n", &LoadOptions::default()), [""; 0]);
     // Nothing else is there.

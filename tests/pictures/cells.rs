@@ -39,11 +39,14 @@ fn one(screen: &Screen, row: u16, width: u16) -> String {
             from += 1;
             continue;
         }
-        // A blank goes with what is before it: its ink depends on how the screen came to be.
-        let same = |c: &u16| screen.cell(row, *c).is_some_and(|cell| is_invisible(cell) || look(cell) == look(first));
+        let first = look(first);
+        // A blank goes with what is before it: its ink depends on how the screen came to be. A ground ends with its cells.
+        let spreads = first.ground.is_none() && !first.underline;
+        let same =
+            |c: &u16| screen.cell(row, *c).is_some_and(|cell| (spreads && is_invisible(cell)) || look(cell) == first);
         let to = (from..width).take_while(same).last().map_or(from + 1, |last| last + 1);
         let texts: Vec<&str> = (from..to).filter_map(|c| screen.cell(row, c)).map(Cell::contents).collect();
-        run(&texts, from, &look(first), &mut out);
+        run(&texts, from, &first, &mut out);
         from = to;
     }
     out
@@ -92,7 +95,7 @@ fn run(texts: &[&str], from: u16, look: &Look, out: &mut String) {
                 let _ = write!(blocks, "M{x} {HEIGHT}h{WIDTH}v-{}h-{WIDTH}z", eighths * HEIGHT / 8);
                 false
             }
-            '─' | '┄' | '│' | '┤' | '┼' => {
+            '─' | '┄' | '│' | '┤' | '┌' | '┐' | '└' | '┘' => {
                 line(c, x, &mut lines);
                 false
             }
@@ -149,7 +152,10 @@ fn line(c: char, x: u16, out: &mut String) {
         '┄' => write!(out, "M{x} {half}h3m2 0h3"),
         '│' => write!(out, "M{middle} 0v{HEIGHT}"),
         '┤' => write!(out, "M{middle} 0v{HEIGHT}M{x} {half}h4"),
-        _ => write!(out, "M{middle} 0v{HEIGHT}M{x} {half}h{WIDTH}"),
+        '┌' => write!(out, "M{middle} {HEIGHT}v-{half}h4"),
+        '┐' => write!(out, "M{middle} {HEIGHT}v-{half}h-4"),
+        '└' => write!(out, "M{middle} 0v{half}h4"),
+        _ => write!(out, "M{middle} 0v{half}h-4"),
     };
 }
 

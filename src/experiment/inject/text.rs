@@ -28,9 +28,9 @@ impl FromStr for Patches {
             let number = |s: &str| s.trim().parse::<usize>().ok();
             Some(Self { count: number(count)?, shortest: number(shortest)?, longest: number(longest)? })
         });
-        parsed
-            .filter(|p| 2 <= p.shortest && p.shortest <= p.longest)
-            .ok_or_else(|| format!("`{text}`: expected COUNTxLENGTH or COUNTxLOW..HIGH, for example 5x3..8, lengths from 2"))
+        parsed.filter(|p| 2 <= p.shortest && p.shortest <= p.longest).ok_or_else(|| {
+            format!("`{text}`: expected COUNTxLENGTH or COUNTxLOW..HIGH, for example 5x3..8, lengths from 2")
+        })
     }
 }
 
