@@ -410,7 +410,7 @@ pub struct OutputArgs {
     /// Name of the analyst, for the report [default: `analyst` in the configuration].
     #[arg(long, value_name = "NAME", requires = "report")]
     pub analyst: Option<String>,
-    /// Do all the work, say what would be written, and write nothing.
+    /// Do all the work and report what would be written, but write nothing.
     #[arg(long)]
     pub dry_run: bool,
     /// Overwrite existing outputs (never the input).

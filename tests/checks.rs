@@ -293,7 +293,7 @@ fn a_session_says_what_is_wrong_with_a_check_and_where() {
         ("check = \"stuck\"", "check = \"stack\"", "did you mean stuck?"),
         ("fail = 30", "fail = 0", "fail = 0"),
         ("fail = 30", "fale = 30", "fale"),
-        ("fail = 30", "fail = \"off\"", "objects to nothing"),
+        ("fail = 30", "fail = \"off\"", "needs a limit"),
         ("period = 500.0", "period = -1.0", "period = -1"),
     ] {
         assert!(saved.contains(from), "{saved}");

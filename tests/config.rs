@@ -69,9 +69,9 @@ fn hostile_text_in_a_configuration_is_made_visible() {
 }
 
 #[test]
-fn the_configuration_of_the_readme_is_understood() {
-    let readme = include_str!("../README.md");
-    let blocks: Vec<&str> = readme.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+fn the_configuration_of_the_manual_is_understood() {
+    let page = include_str!("../docs/reference/configuration.md");
+    let blocks: Vec<&str> = page.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
     let folder = configured(blocks.iter().find(|block| block.contains("[screen]")).unwrap());
     assert!(folder.done("keys").contains("\nnext-flag = [\"n\", \"f5\"]"));
 }

@@ -194,7 +194,7 @@ fn truth_and_chosen_columns() {
     assert_eq!((names, track.truth), (vec!["b", "a"], Some(vec![false, true])));
     let fails = |options: LoadOptions| load_with("two_truths.csv", &options).unwrap_err().to_string();
     let e = fails(LoadOptions { truth: Some("b".into()), ..LoadOptions::default() });
-    assert!(e.contains("`b` is no truth column: it holds 2"), "{e}");
+    assert!(e.contains("`b` is not a truth column: it holds 2"), "{e}");
     let e = fails(LoadOptions { channels: vec!["time".into()], ..LoadOptions::default() });
     assert!(e.contains("`time` is the time"), "{e}");
     let e = fails(LoadOptions { channels: vec!["a_thruth".into()], ..LoadOptions::default() });
@@ -292,7 +292,7 @@ fn a_time_column_that_cannot_be_read_is_told() {
 fn numbers_with_commas_between_commas_are_told() {
     let text = "t,x,y\n0,\"1,5\",1\n1,\"2,5\",2\n2,\"3,5\",3\n";
     let told = notes(text, &LoadOptions::default());
-    assert!(matches!(&told[..], [note] if note.starts_with("`x` holds numbers with commas: say --decimal-comma")));
+    assert!(matches!(&told[..], [note] if note.starts_with("`x` holds numbers with commas: use --decimal-comma")));
     assert_eq!(notes(text, &LoadOptions { decimal_comma: Some(true), ..LoadOptions::default() }), [""; 0]);
     assert_eq!(notes("t,x,y\n0,\"1,a\",1\n1,\"2,5\",2\n", &LoadOptions::default()), [""; 0]);
     // Nothing else is there.

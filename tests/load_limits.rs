@@ -88,7 +88,7 @@ fn commas_that_part_cells_and_begin_decimals_need_quotes() {
     assert_eq!(load_with(text, &comma(None)).unwrap().channels[0].values, [1.5, 2.5, 3.5]);
     // A repaired 2,5 would be two cells.
     let e = load_with(b"time,x\n0,1\n1,2\n", &comma(Some(false))).unwrap_err().to_string();
-    assert!(e.contains("where there are no quotes") && e.contains("--delimiter"), "{e}");
+    assert!(e.contains("where cells are not quoted") && e.contains("--delimiter"), "{e}");
 }
 
 #[test]
@@ -154,7 +154,7 @@ fn steps_of_a_millisecond_over_twenty_years_are_exact() {
 #[test]
 fn other_kinds_of_text_are_named() {
     let wide: Vec<u8> = "time,x\n0,1\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
-    assert!(refused(&wide).contains("UTF-16 without its byte order mark"));
+    assert!(refused(&wide).contains("UTF-16 without a byte order mark"));
     assert!(refused(b"\xff\xfet\0i").contains("UTF-16"), "half a file");
     assert!(refused(b"time,x\n0,1\n1,\0\n").contains(":3: a NUL byte"));
     assert!(refused(b"PK\x03\x04rest").contains("the zip stream is broken"));
@@ -167,7 +167,7 @@ fn a_device_is_refused_and_not_read_to_its_end() {
     let e = load(&Source::File(device.clone()), &LoadOptions::default()).unwrap_err().to_string();
     assert!(e.contains("a pipe or a device") && e.contains("wildpoint stream"), "{e}");
     let e = read(&device).unwrap_err().to_string();
-    assert!(e.contains("no ordinary file"), "{e}");
+    assert!(e.contains("not a regular file"), "{e}");
 }
 
 #[test]

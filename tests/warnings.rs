@@ -67,7 +67,7 @@ fn a_block_too_short_for_a_test_cannot_flag_at_its_ends() {
 #[test]
 fn predictors_warn_of_runs_that_are_taken_for_changes_and_of_first_samples() {
     for id in ["five-point", "alpha-beta-gamma", "adaptive"] {
-        assert!(said(id, &[("max_run", "4")]).contains("a patch of 5 or more samples"), "{id}");
+        assert!(said(id, &[("max_run", "4")]).contains("a run of 5 or more outliers"), "{id}");
         assert_eq!(said(id, &[("max_run", "5")]), "", "{id}");
         assert_eq!(said(id, &[("max_run", "0")]), "", "{id}: 0 is never");
         assert!(said(id, &[("look_back", "false")]).contains("first five samples"), "{id}");

@@ -11,8 +11,17 @@ use std::path::{Path, PathBuf};
 const SOURCES: [&str; 3] = ["src", "crates/core/src", "crates/record/src"];
 /// Doc comments that are shown: those of the command line.
 const SHOWN: &str = "src/cli";
-/// Pages with the words of the source documents.
-const QUOTING: [&str; 4] = ["docs/terms.md", "docs/methods.md", "docs/references.md", "src/experiment"];
+/// Where the words are those of the source documents, or are listed.
+const QUOTING: [&str; 8] = [
+    "docs/terms.md",
+    "docs/methods.md",
+    "docs/references.md",
+    "src/experiment/gan",
+    "src/experiment/hou",
+    "src/experiment/jiang",
+    "src/experiment/jin",
+    "src/experiment/qin",
+];
 /// Texts that are part of saved results and stay what they are.
 const KEPT: [&str; 3] = ["patch", "patches", "stands for no value"];
 

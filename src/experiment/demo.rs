@@ -1,6 +1,6 @@
 //! The demonstration record: 40 minutes of a vehicle's velocity and altitude, one sample a second, after the
 //! example of \[000\]: a dynamic start, lost samples (one long loss), a real step of the velocity while no sample came
-//! in, isolated outliers and patches. The truth column marks the outliers of the velocity.
+//! in, isolated outliers and runs. The truth column marks the outliers of the velocity.
 
 use super::record::{Record, Signal, Wild};
 use super::{Experiment, Random};
@@ -8,7 +8,7 @@ use super::{Experiment, Random};
 /// The row of the table.
 pub const EXPERIMENT: Experiment = Experiment {
     id: "demo",
-    help: "the built-in record: velocity and altitude with lost samples, a step, isolated outliers and patches",
+    help: "the built-in record: velocity and altitude with lost samples, a step, isolated outliers and runs",
     source: "after [000]",
     record,
     seed: 19_285,

@@ -20,7 +20,7 @@ fn unmarked(text: &str) -> String {
             [b'[', ..] => link(here, &mut out),
             [b'*', b'*', ..] => &here[2..],
             // An asterisk between blanks is a product.
-            [b'*', b' ', ..] => pushed(here, 1, &mut out),
+            [b'*', b' ', ..] if out.ends_with(' ') => pushed(here, 1, &mut out),
             [b'*', ..] => &here[1..],
             [b'\\', next, ..] if next.is_ascii_punctuation() => pushed(&here[1..], 1, &mut out),
             [b'<', ..] if here.starts_with("<http") => &here[1..],
@@ -60,7 +60,7 @@ mod tests {
     #[test]
     fn markup_goes_and_words_stay() {
         for (marked, wanted) in [
-            ("**Run** `a * b` and *see*", "Run a * b and see"),
+            ("**Run** `a * b` and *see* it", "Run a * b and see it"),
             ("[Verdicts](explanation/verdicts.md), [web](https://e.org)", "Verdicts, web <https://e.org>"),
             ("![A flag](x.svg)", "[picture: A flag]"),
             ("`a\\|b` or a\\|b, sum (k * s), [001] s.2", "a|b or a|b, sum (k * s), [001] s.2"),

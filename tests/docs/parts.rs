@@ -204,5 +204,6 @@ fn option(arg: &Arg) -> Vec<String> {
     let defaults: Vec<String> = arg.get_default_values().iter().map(|v| v.to_string_lossy().into_owned()).collect();
     let default =
         if defaults.is_empty() || !takes { String::new() } else { format!(" [default: {}]", defaults.join(", ")) };
-    vec![spelled, format!("{help}{values}{default}")]
+    let stop = if help.ends_with(['.', ']']) { "" } else { "." };
+    vec![spelled, format!("{help}{stop}{values}{default}")]
 }

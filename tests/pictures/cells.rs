@@ -35,13 +35,26 @@ fn one(screen: &Screen, row: u16, width: u16) -> String {
     let mut from = 0;
     while from < width {
         let Some(first) = screen.cell(row, from) else { break };
-        let same = |c: &u16| screen.cell(row, *c).is_some_and(|cell| look(cell) == look(first));
+        if is_invisible(first) {
+            from += 1;
+            continue;
+        }
+        let first = look(first);
+        // A blank goes with what is before it: its ink depends on how the screen came to be. A ground ends with its cells.
+        let spreads = first.ground.is_none() && !first.underline;
+        let same =
+            |c: &u16| screen.cell(row, *c).is_some_and(|cell| (spreads && is_invisible(cell)) || look(cell) == first);
         let to = (from..width).take_while(same).last().map_or(from + 1, |last| last + 1);
         let texts: Vec<&str> = (from..to).filter_map(|c| screen.cell(row, c)).map(Cell::contents).collect();
-        run(&texts, from, &look(first), &mut out);
+        run(&texts, from, &first, &mut out);
         from = to;
     }
     out
+}
+
+/// Whether a cell shows nothing but the ground.
+fn is_invisible(cell: &Cell) -> bool {
+    cell.contents().trim().is_empty() && look(cell).ground.is_none() && !cell.underline()
 }
 
 fn look(cell: &Cell) -> Look {
@@ -82,7 +95,7 @@ fn run(texts: &[&str], from: u16, look: &Look, out: &mut String) {
                 let _ = write!(blocks, "M{x} {HEIGHT}h{WIDTH}v-{}h-{WIDTH}z", eighths * HEIGHT / 8);
                 false
             }
-            '─' | '┄' | '│' | '┤' | '┼' => {
+            '─' | '┄' | '│' | '┤' | '┌' | '┐' | '└' | '┘' => {
                 line(c, x, &mut lines);
                 false
             }
@@ -139,7 +152,10 @@ fn line(c: char, x: u16, out: &mut String) {
         '┄' => write!(out, "M{x} {half}h3m2 0h3"),
         '│' => write!(out, "M{middle} 0v{HEIGHT}"),
         '┤' => write!(out, "M{middle} 0v{HEIGHT}M{x} {half}h4"),
-        _ => write!(out, "M{middle} 0v{HEIGHT}M{x} {half}h{WIDTH}"),
+        '┌' => write!(out, "M{middle} {HEIGHT}v-{half}h4"),
+        '┐' => write!(out, "M{middle} {HEIGHT}v-{half}h-4"),
+        '└' => write!(out, "M{middle} 0v{half}h4"),
+        _ => write!(out, "M{middle} 0v{half}h-4"),
     };
 }
 

@@ -47,7 +47,7 @@ impl Picture {
         let mut out = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\">\n\
              <style>\ntext {{ font: 13.33px \"DejaVu Sans Mono\", Menlo, Consolas, monospace; white-space: pre; }}\n\
-             path {{ fill: none; }} path[fill] {{ stroke: none; }}\n{}</style>\n\
+             path[stroke] {{ fill: none; }}\n{}</style>\n\
              <rect width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"{GROUND}\"/>\n<defs>\n{defs}</defs>\n",
             self.motion()
         );

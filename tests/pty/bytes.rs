@@ -14,7 +14,7 @@ fn bytes_for(terminal: &mut Terminal, keys: &str, shown: &str) -> usize {
 
 /// Below the trace, the workbench says what a step of the knob changes, and nothing more is to come.
 fn advised(terminal: &Terminal, size: (u16, u16)) {
-    terminal.wait_for(if size == WIDE { "f takes k" } else { "↓+" });
+    terminal.wait_for(if size == WIDE { "f sets k" } else { "↓+" });
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn each_step_of_a_review_keeps_to_the_bar_of_the_design() {
 #[test]
 fn a_burst_of_keys_is_drawn_in_few_frames() {
     let (_folder, mut terminal) = workbench(WIDE);
-    terminal.wait_for("f takes k");
+    terminal.wait_for("f sets k");
     let frames = terminal.frames();
     terminal.keys(&".".repeat(100));
     terminal.wait_for("k 13.9 → 14.0");

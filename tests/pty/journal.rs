@@ -164,7 +164,7 @@ fn a_session_is_gone_on_with_and_a_changed_record_is_not_touched() {
     for words in ["work.toml", "demo.csv"] {
         let terminal = desk.start(words);
         overlay(&terminal);
-        terminal.wait_for("It went on from work.toml.");
+        terminal.wait_for("It continues work.toml.");
     }
     let mut terminal = desk.start("demo.csv");
     overlay(&terminal);

@@ -8,11 +8,11 @@ impl FromStr for Amount {
     type Err = String;
 
     fn from_str(text: &str) -> std::result::Result<Self, String> {
-        let wanted = || format!("`{text}`: a number of samples (20) or a part of them (1%) is wanted");
+        let wanted = || format!("`{text}`: expected a number of samples (20) or a share of them (1%)");
         match text.trim().strip_suffix('%') {
             Some(part) => match part.trim().parse::<f64>() {
                 Ok(p) if (0.0..=50.0).contains(&p) => Ok(Self::Part(p / 100.0)),
-                _ => Err(format!("`{text}`: 0% to 50% is wanted")),
+                _ => Err(format!("`{text}`: expected 0% to 50%")),
             },
             None => text.trim().parse().map(Self::Count).map_err(|_| wanted()),
         }
@@ -28,9 +28,9 @@ impl FromStr for Patches {
             let number = |s: &str| s.trim().parse::<usize>().ok();
             Some(Self { count: number(count)?, shortest: number(shortest)?, longest: number(longest)? })
         });
-        parsed
-            .filter(|p| 2 <= p.shortest && p.shortest <= p.longest)
-            .ok_or_else(|| format!("`{text}`: COUNTxLENGTH or COUNTxLOW..HIGH is wanted, 5x3..8 say, lengths from 2"))
+        parsed.filter(|p| 2 <= p.shortest && p.shortest <= p.longest).ok_or_else(|| {
+            format!("`{text}`: expected COUNTxLENGTH or COUNTxLOW..HIGH, for example 5x3..8, lengths from 2")
+        })
     }
 }
 
@@ -42,7 +42,7 @@ impl FromStr for Span {
         let number = |s: &str| s.trim().parse::<f64>().ok().filter(|x| x.is_finite());
         match (number(low), number(high)) {
             (Some(low), Some(high)) if 0.0 < low && low <= high => Ok(Self { low, high }),
-            _ => Err(format!("`{text}`: LOW..HIGH is wanted, 5..20 say, above 0")),
+            _ => Err(format!("`{text}`: expected LOW..HIGH above 0, for example 5..20")),
         }
     }
 }
@@ -60,7 +60,7 @@ impl FromStr for Step {
         match (number(size), at) {
             (Some(size), None) if size != 0.0 => Ok(Self { size, at: None }),
             (Some(size), Some(Some(at))) if size != 0.0 => Ok(Self { size, at: Some(at) }),
-            _ => Err(format!("`{text}`: SIZE or SIZE@SECONDS is wanted, 10@1239.5 say")),
+            _ => Err(format!("`{text}`: expected SIZE or SIZE@SECONDS, for example 10@1239.5")),
         }
     }
 }

@@ -160,7 +160,7 @@ pub(super) fn after(model: &mut Model, goes_on: bool, text: &mut String) {
         match neighbour(model, true, Stops::Undecided) {
             Some((next, _)) if model.review.auto_advance => navigate::go_to(model, next),
             Some(_) => {}
-            None => text.push_str(" · every flag has been decided on"),
+            None => text.push_str(" · every flag is decided"),
         }
     }
     model.review.left_at = Some(model.state().cursor);

@@ -98,8 +98,11 @@ fn right_side(model: &Model, width: u16) -> Line<'static> {
     Line::from(spans)
 }
 
-/// The score against the truth, in fewer words where the record's name would have to go for them.
+/// The score by the truth column, in fewer words where the record's name would have to go for them.
 fn truth_words(score: &Score, width: u16) -> String {
-    let alarms = if width < ROOMY { "false".to_owned() } else { format!("false alarm{}", plural(score.false_alarms)) };
-    format!("truth: {} missed, {} {alarms}  ", score.missed, score.false_alarms)
+    let (missed, alarms) = (score.missed, score.false_alarms);
+    if width < ROOMY {
+        return format!("{missed} missed, {alarms} false  ");
+    }
+    format!("truth: {missed} missed, {alarms} false alarm{}  ", plural(alarms))
 }

@@ -229,7 +229,7 @@ mod tests {
     fn what_is_no_pattern_is_refused_with_the_letters() {
         for text in ["", "yyyy-mm-dd", "%Q", "%Y-%"] {
             let e = Pattern::new(text).unwrap_err().to_string();
-            assert!(e.contains("no pattern of a time") && e.contains("%.f"), "{e}");
+            assert!(e.contains("not a time format") && e.contains("%.f"), "{e}");
         }
     }
 }
