@@ -144,7 +144,9 @@ impl Experiment {
     /// # Errors
     /// What judging the record gives.
     pub fn pictures(&self, seed: u64) -> Result<Vec<Shown>> {
-        self.reproduction.as_ref().map_or_else(|| Ok(Vec::new()), |published| (published.pictures)(&(self.record)(seed)))
+        self.reproduction
+            .as_ref()
+            .map_or_else(|| Ok(Vec::new()), |published| (published.pictures)(&(self.record)(seed)))
     }
 }
 

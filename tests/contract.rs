@@ -84,7 +84,10 @@ fn ids_and_keys_are_unique_and_every_declared_value_is_legal() {
             assert!(param.accepts(param.default), "{of}: default {}", param.default);
             if let Some(paper) = param.paper {
                 assert!(param.accepts(paper.value) && paper.value != param.default, "{of}: paper {}", paper.value);
-                assert!(!paper.why.is_empty() && !paper.why.ends_with('.'), "{of}: why the default departs, in one line");
+                assert!(
+                    !paper.why.is_empty() && !paper.why.ends_with('.'),
+                    "{of}: why the default departs, in one line"
+                );
             }
             assert!(param.help.len() > 5, "{of} has no help");
             assert_eq!(param.parse(&param.default.to_string()).ok(), Some(param.default), "{of} reads back");

@@ -181,7 +181,10 @@ fn the_two_sided_test_shows_its_candidates_figures() {
         assert!(lines.contains(part), "{lines}");
     }
     let lines = method("two-sided").notes(&Settings::paper(method("two-sided").about().params)).join("\n");
-    assert!(lines.contains("cubic on 24") && lines.contains("line on 2 2.45 .. 6.48") && lines.contains("k = 3"), "{lines}");
+    assert!(
+        lines.contains("cubic on 24") && lines.contains("line on 2 2.45 .. 6.48") && lines.contains("k = 3"),
+        "{lines}"
+    );
 }
 
 /// \[001\] eq. (43) with a spike of 15 sigma at each of the first five samples in turn: none is seen without

@@ -102,7 +102,9 @@ fn list() -> String {
     for about in CHECKS.iter().map(|c| c.about()) {
         let _ = writeln!(out, "  {:18} {}", about.id, about.help);
     }
-    out.push_str("\nwhich method when: the documents' own comparisons, and what was measured on their experiments here\n");
+    out.push_str(
+        "\nwhich method when: the documents' own comparisons, and what was measured on their experiments here\n",
+    );
     CHOICES.iter().for_each(|choice| choice_lines(choice, &mut out));
     out.push_str("\n`wildpoint methods ID` explains one, with its parameters.\n");
     out

@@ -36,42 +36,12 @@ pub const EXPERIMENT: Experiment = Experiment {
 
 /// The figures of the document.
 const PICTURES: [Picture; 6] = [
-    Picture {
-        title: "Figure 1 (a): wright",
-        method: "wright",
-        preset: Preset::Paper,
-        keys: &[],
-    },
-    Picture {
-        title: "Figure 1 (b): romanovsky",
-        method: "romanovsky",
-        preset: Preset::Paper,
-        keys: FLAT_AT_001,
-    },
-    Picture {
-        title: "Figure 1 (c): grubbs",
-        method: "grubbs",
-        preset: Preset::Paper,
-        keys: FLAT_AT_001,
-    },
-    Picture {
-        title: "Figure 1 (d): chauvenet",
-        method: "chauvenet",
-        preset: Preset::Paper,
-        keys: FLAT,
-    },
-    Picture {
-        title: "Figure 1 (e): odd-even",
-        method: "odd-even",
-        preset: Preset::Paper,
-        keys: FLAT,
-    },
-    Picture {
-        title: "Figure 1 (f): diff-median",
-        method: "diff-median",
-        preset: Preset::Paper,
-        keys: &[],
-    },
+    Picture { title: "Figure 1 (a): wright", method: "wright", preset: Preset::Paper, keys: &[] },
+    Picture { title: "Figure 1 (b): romanovsky", method: "romanovsky", preset: Preset::Paper, keys: FLAT_AT_001 },
+    Picture { title: "Figure 1 (c): grubbs", method: "grubbs", preset: Preset::Paper, keys: FLAT_AT_001 },
+    Picture { title: "Figure 1 (d): chauvenet", method: "chauvenet", preset: Preset::Paper, keys: FLAT },
+    Picture { title: "Figure 1 (e): odd-even", method: "odd-even", preset: Preset::Paper, keys: FLAT },
+    Picture { title: "Figure 1 (f): diff-median", method: "diff-median", preset: Preset::Paper, keys: &[] },
 ];
 
 /// Deviation of the noise: the document's variance is 2.
@@ -208,7 +178,6 @@ fn conclude(runs: Runs<'_>) -> (Vec<Table>, Vec<Finding>) {
     let title = "Rejection rate, eq. (42), and false alarms (the figures of the document's table 1 are lost)";
     (vec![rates(title, &labels, runs), table_2::table(runs)], findings::findings(runs))
 }
-
 
 /// The mean rejection rate of a method, in percent: of all outliers, or of those of one kind.
 fn rate(runs: Runs<'_>, label: &str, column: usize) -> f64 {

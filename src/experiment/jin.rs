@@ -31,12 +31,7 @@ pub const EXPERIMENT: Experiment = Experiment {
 
 /// The figures of the document.
 const PICTURES: [Picture; 2] = [
-    Picture {
-        title: "Figure 2: Wright alone",
-        method: "wright",
-        preset: Preset::Paper,
-        keys: &[],
-    },
+    Picture { title: "Figure 2: Wright alone", method: "wright", preset: Preset::Paper, keys: &[] },
     Picture {
         title: "Figures 3 to 6: least-squares trend and Wright",
         method: "trend-wright",

@@ -37,7 +37,8 @@ pub fn reproduced_html(experiments: &[Reproduced]) -> String {
             }
             let all = experiments.iter().filter(|e| document_of(e.result.source) == of);
             let counts = counted(all.flat_map(|e| &e.result.findings));
-            let _ = writeln!(out, "<section class=\"document\">\n<h2>{}</h2>\n<p>{}</p>", escaped(of), escaped(&counts));
+            let _ =
+                writeln!(out, "<section class=\"document\">\n<h2>{}</h2>\n<p>{}</p>", escaped(of), escaped(&counts));
             document = of;
         }
         section(experiment, &mut out);
@@ -93,14 +94,16 @@ fn section(experiment: &Reproduced, out: &mut String) {
 }
 
 fn findings(findings: &[Finding], out: &mut String) {
-    out.push_str("<div class=\"table\"><table>\n<thead><tr><th></th><th>the document</th><th>here</th></tr></thead>\n<tbody>\n");
+    out.push_str(
+        "<div class=\"table\"><table>\n<thead><tr><th></th><th>the document</th><th>here</th></tr></thead>\n<tbody>\n",
+    );
     for finding in findings {
         let class = match finding.held {
             Held::Yes => "holds",
             Held::No => "not",
             Held::CannotTell => "untold",
         };
-        let fitted = if finding.fitted { " <b>The stand-in was fitted to this.</b>" } else { "" };
+        let fitted = if finding.fitted { ". <b>The stand-in was fitted to this.</b>" } else { "" };
         let _ = writeln!(
             out,
             "<tr><td class=\"wide {class}\">{}</td><td>{}</td><td>{}{fitted}</td></tr>",
@@ -150,6 +153,5 @@ fn pictures(shown: &Shown, out: &mut String) {
 }
 
 fn figure_of(svg: &str, caption: &str, out: &mut String) {
-    let _ =
-        writeln!(out, "<figure>{}<figcaption>{}</figcaption></figure>", labelled(svg, caption), escaped(caption));
+    let _ = writeln!(out, "<figure>{}<figcaption>{}</figcaption></figure>", labelled(svg, caption), escaped(caption));
 }

@@ -6,7 +6,12 @@ use crate::experiment::{Cell, Runs, Table};
 /// Method, limit, performance and use, as the document has them.
 const ROWS: [[&str; 4]; 6] = [
     ["wright", "3 sigma", "simple; good on isolated outliers in much data", "much data, none that vary, in haste"],
-    ["romanovsky", "K(n, alpha) sigma", "good, but mean and deviation for each sample", "4 to 20 samples, none that vary"],
+    [
+        "romanovsky",
+        "K(n, alpha) sigma",
+        "good, but mean and deviation for each sample",
+        "4 to 20 samples, none that vary",
+    ],
     ["grubbs", "G(n, alpha) sigma", "the best", "20 to 100 samples, varying ones too"],
     ["chauvenet", "k sigma", "good, at a fairly low cost", "much data, few patches, none that vary"],
     ["odd-even", "3 sigma of the group", "rejects patches; false alarms", "much data, few isolated, varying ones too"],
@@ -23,7 +28,16 @@ pub(super) fn table(runs: Runs<'_>) -> Table {
     };
     Table {
         title: "Table 2: what the document says of each criterion, and the rates measured here".into(),
-        columns: vec!["method", "limit", "performance", "to be used for", "isolated %", "patch %", "varying %", "false"],
+        columns: vec![
+            "method",
+            "limit",
+            "performance",
+            "to be used for",
+            "isolated %",
+            "patch %",
+            "varying %",
+            "false",
+        ],
         rows: ROWS.iter().map(row).collect(),
     }
 }

@@ -10,7 +10,11 @@ pub(super) fn charts(runs: Runs<'_>) -> Vec<Chart> {
             let point = |(at, window): (usize, &&str)| Some((window.parse().ok()?, error(line, at)));
             WINDOWS.iter().enumerate().filter_map(point).filter(|(_, y): &(f64, f64)| *y > 0.0).collect()
         };
-        chart(title.to_owned(), "window", LINES.iter().map(|line| Curve { name: line.id, points: points(line) }).collect())
+        chart(
+            title.to_owned(),
+            "window",
+            LINES.iter().map(|line| Curve { name: line.id, points: points(line) }).collect(),
+        )
     };
     let mut charts = vec![
         over_window("Table 1 as printed: final error over the window", &|line, at| line.printed[at]),

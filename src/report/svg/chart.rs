@@ -78,8 +78,14 @@ pub(in crate::report) fn chart(chart: &Chart) -> Option<Figure> {
         let _ = write!(out, r#"<path class="grid" d="M{} {}v{}"/>"#, c(x(tick)), c(TOP), c(height));
         let _ = write!(out, r#"<text class="x" x="{}" y="{}">{tick}</text>"#, c(x(tick)), c(base + 16.0));
     }
-    let _ =
-        write!(out, r#"<rect class="frame" x="{}" y="{}" width="{}" height="{}"/>"#, c(LEFT), c(TOP), c(width), c(height));
+    let _ = write!(
+        out,
+        r#"<rect class="frame" x="{}" y="{}" width="{}" height="{}"/>"#,
+        c(LEFT),
+        c(TOP),
+        c(width),
+        c(height)
+    );
     for (curve, class) in chart.curves.iter().zip(CURVES.iter().cycle()) {
         let mut path = String::new();
         for (i, &(px, py)) in curve.points.iter().enumerate() {

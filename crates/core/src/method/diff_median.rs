@@ -21,7 +21,10 @@ const MODE: Param = Param {
     unit: "",
     kind: Kind::Choice(&["switching", "plain"]),
     default: Value::Word("switching"),
-    paper: Some(Paper::printed(Value::Word("plain"), "smoothed differences that are summed up drift away from noisy data")),
+    paper: Some(Paper::printed(
+        Value::Word("plain"),
+        "smoothed differences that are summed up drift away from noisy data",
+    )),
     matters: always,
 };
 

@@ -179,7 +179,10 @@ pub const REFIT: Param = Param {
     unit: "",
     kind: Kind::Switch,
     default: Value::Switch(true),
-    paper: Some(Paper::printed(Value::Switch(false), "the first trend is bent by the outliers that are flagged against it")),
+    paper: Some(Paper::printed(
+        Value::Switch(false),
+        "the first trend is bent by the outliers that are flagged against it",
+    )),
     matters: refit_matters,
 };
 

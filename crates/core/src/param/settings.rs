@@ -34,7 +34,11 @@ impl Settings {
     /// Every parameter as its source document has it, the others at their defaults.
     #[must_use]
     pub fn paper(params: &'static [Param]) -> Self {
-        Self { params, values: params.iter().map(|p| p.paper.map_or(p.default, |paper| paper.value)).collect(), interval: None }
+        Self {
+            params,
+            values: params.iter().map(|p| p.paper.map_or(p.default, |paper| paper.value)).collect(),
+            interval: None,
+        }
     }
 
     /// The same settings for samples that are so many seconds apart, which durations are counted in.

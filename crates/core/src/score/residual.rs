@@ -24,11 +24,7 @@ pub struct SplineResidual {
 ///
 /// # Errors
 /// [`Stopped`] as soon as nobody waits for it any more.
-pub fn spline_residual(
-    outcome: &Outcome,
-    series: &Series<'_>,
-    stop: &Stop,
-) -> Result<Option<SplineResidual>, Stopped> {
+pub fn spline_residual(outcome: &Outcome, series: &Series<'_>, stop: &Stop) -> Result<Option<SplineResidual>, Stopped> {
     let detection = &outcome.detection;
     if detection.setup.preparation.period.is_some() {
         return Ok(None);
@@ -106,7 +102,8 @@ mod tests {
             let detection = Detection::of((&series).into(), &setup, &Stop::never()).unwrap();
             let rows = crate::analysis::Rows { seconds: &t, own: None };
             let outcome =
-                crate::analysis::settle(&series, rows, detection.into(), &Decisions::default(), &Stop::never()).unwrap();
+                crate::analysis::settle(&series, rows, detection.into(), &Decisions::default(), &Stop::never())
+                    .unwrap();
             assert_eq!(outcome.outliers, [100]);
             spline_residual(&outcome, &series, &Stop::never()).unwrap().unwrap()
         };
