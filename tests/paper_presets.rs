@@ -1,6 +1,6 @@
 //! The settings of the paper are those of the documents: numbers worked out by hand from their formulas.
 
-#![expect(clippy::expect_used, reason = "a test that cannot set itself up should fail")]
+#![expect(clippy::expect_used, clippy::unwrap_used, reason = "a test that cannot set itself up should fail")]
 
 #[expect(dead_code, reason = "other tests use what this does not")]
 mod program;
@@ -94,7 +94,7 @@ fn an_order_can_have_points_of_its_own() {
     let given = [
         ("order", "3"),
         ("variable_order", "false"),
-        ("cubic_points", "6"),
+        ("points_3", "6"),
         ("delta", "2"),
         ("sigma", "1"),
         ("floor", "0"),
@@ -102,7 +102,7 @@ fn an_order_can_have_points_of_its_own() {
     ];
     let expected = |changes: &[(&str, &str)]| judged("two-sided", &y, &[&given[..], changes].concat()).expected[21];
     assert!((expected(&[]) - 8.0 / 3.0).abs() < 1e-9, "{}", expected(&[]));
-    assert!(expected(&[("cubic_points", "18")]) < 1.5);
+    assert!(expected(&[("points_3", "18")]) < 1.5);
 }
 
 /// P(g >= G) = alpha, eq. (8) of \[001\], is one-sided: G(15, 0.05) = 2.41 in the tables that it cites. 14 temperatures and
