@@ -23,11 +23,10 @@ fn assert_findings(result: &Reproduction, hold: &[&str], do_not: &[&str]) {
     }
 }
 
-/// The figure of a row (by its first cells) in a column (by its number) of the first table.
+/// The figure of the first row with these first cells, in a column (by its number).
 fn figure(result: &Reproduction, row: &[&str], column: usize) -> f64 {
-    let table = result.tables.first().expect("a table");
     let is_row = |cells: &&Vec<Cell>| row.iter().zip(*cells).all(|(name, cell)| cell.shown() == *name);
-    match table.rows.iter().find(is_row).and_then(|cells| cells.get(column)) {
+    match result.tables.iter().flat_map(|t| &t.rows).find(is_row).and_then(|cells| cells.get(column)) {
         Some(Cell::Number { value, .. }) => *value,
         other => panic!("{row:?}: {other:?}"),
     }
@@ -38,8 +37,8 @@ fn jiang_two_directions_beat_one_and_variable_order_is_level_with_the_best() {
     let result = reproduced("jiang", 2);
     assert_findings(
         &result,
-        &["two-sided-beats-one-sided", "variable-level-with-best-fixed", "third-order-worst"],
-        &[],
+        &["two-sided-beats-one-sided", "variable-level-with-best-fixed", "third-order-worst", "single-and-patches"],
+        &["a-looser-limit-misses-fewer", "three-deviations"],
     );
     insta::assert_snapshot!(reproduction_text(&result));
 }
@@ -47,9 +46,11 @@ fn jiang_two_directions_beat_one_and_variable_order_is_level_with_the_best() {
 #[test]
 fn hou_offline_masks_grubbs_and_nobody_finds_more_than_one_who_knows_sigma() {
     let result = reproduced("hou-offline", 60);
-    assert_findings(&result, &["romanovsky-good", "diff-median-unstable"], &["grubbs-best"]);
-    // Section 9: 8 % by Grubbs one at a time, 85 % by Romanovsky, 84 % by an observer who knows sigma.
-    for (method, rate, within) in [("grubbs", 8.0, 3.0), ("romanovsky", 85.0, 2.0), ("known sigma", 84.0, 1.5)] {
+    let hold = ["romanovsky-good", "diff-median-unstable", "wright-patches", "chauvenet-patches", "odd-even-false"];
+    assert_findings(&result, &hold, &["grubbs-best", "grubbs-varying"]);
+    // Section 9: 14 % by Grubbs one at a time, one-sided (an implementation apart gives 14.1 over 3000 runs, 9 two-sided);
+    // 85 % by Romanovsky, 84 % by an observer who knows sigma.
+    for (method, rate, within) in [("grubbs", 14.0, 4.0), ("romanovsky", 85.0, 2.0), ("known sigma", 84.0, 1.5)] {
         let measured = figure(&result, &[method], 1);
         assert!((measured - rate).abs() <= within, "{method}: {measured}");
     }
@@ -57,14 +58,20 @@ fn hou_offline_masks_grubbs_and_nobody_finds_more_than_one_who_knows_sigma() {
 }
 
 #[test]
-fn hou_realtime_gives_matched_the_fewest_false_alarms_and_alpha_beta_gamma_the_varying_kind() {
+fn hou_realtime_has_the_order_of_the_document_without_a_rule_that_ends_a_run() {
     let result = reproduced("hou-realtime", 60);
-    let hold = ["matched-fewest-false", "alpha-beta-gamma-best-on-varying"];
-    assert_findings(&result, &hold, &["five-point-beats-alpha-beta-gamma", "adaptive-best-when-mixed"]);
-    // Section 9, found of 24.
-    for (method, found, within) in
-        [("alpha-beta-gamma", 18.0, 0.6), ("matched", 20.0, 0.3), ("adaptive, winsor", 10.3, 1.5)]
-    {
+    let hold = ["matched-fewest-false", "adaptive-finds-more", "all-find-isolated", "adaptive-best-when-mixed"];
+    assert_findings(&result, &hold, &["adaptive-fewer-false", "alpha-beta-gamma-best-on-varying"]);
+    // Section 9, found of 24: by our rules, and without a rule that ends a run 84.7, 84.4, 87.1 (at 3 scales) and 83.1 %.
+    for (method, found, within) in [
+        ("alpha-beta-gamma (ours)", 18.0, 0.6),
+        ("matched (ours)", 20.0, 0.3),
+        ("adaptive (ours)", 10.3, 1.5),
+        ("five-point", 0.847 * 24.0, 0.8),
+        ("alpha-beta-gamma", 0.844 * 24.0, 0.8),
+        ("adaptive (k 3)", 0.871 * 24.0, 0.8),
+        ("matched", 0.831 * 24.0, 0.3),
+    ] {
         let measured = figure(&result, &[method], 5);
         assert!((measured - found).abs() <= within, "{method}: {measured}");
     }
@@ -83,8 +90,8 @@ fn jin_finds_with_a_trend_what_three_sigma_alone_leaves() {
 #[test]
 fn qin_has_the_median_best_and_the_template_worst_at_fifty() {
     let result = reproduced("qin", 6);
-    let hold = ["median-best-at-50", "median-smallest-at-50", "template-worst-at-50", "template-grows-from-50"];
-    assert_findings(&result, &hold, &["eq-1-as-printed", "median-best-at-20-and-30", "mean-breaks-at-200"]);
+    let hold = ["median-best-at-50", "median-smallest-at-50", "template-worst-at-50", "median-good-on-both"];
+    assert_findings(&result, &hold, &["eq-1-as-printed", "mean-and-median-best-at-10", "mean-breaks-at-200"]);
     for window in ["7", "8", "10"] {
         for method in ["poly-window", "template", "mean-window", "median-window"] {
             // Such windows cannot reach three scales: `docs/methods.md`, section 3.
@@ -95,9 +102,10 @@ fn qin_has_the_median_best_and_the_template_worst_at_fifty() {
 }
 
 #[test]
-fn gan_removes_both_and_the_infill_keeps_the_filter_on_the_patch() {
+fn gan_removes_both_and_deals_with_the_single_one_as_the_usual_filter() {
     let result = reproduced("gan", 60);
-    assert_findings(&result, &["both-removed", "infill-keeps-the-filter"], &[]);
+    let hold = ["both-removed", "single-as-by-the-usual-filter", "good-samples-pass", "outliers-are-found"];
+    assert_findings(&result, &hold, &["spline-better-than-prediction"]);
     insta::assert_snapshot!(reproduction_text(&result));
 }
 
@@ -168,15 +176,16 @@ fn the_number_of_threads_changes_nothing() {
     assert_eq!(alone, json(reproduced("hou-realtime", 8)));
 }
 
-/// The figures of the table of advice are those of the experiments, to what fewer runs than theirs can tell.
+/// The figures of the table of advice are those of the experiments, to what fewer runs than theirs can tell: with 60 of
+/// 200 runs a rate is known to about 4 of 100, with 6 a count to a tenth.
 #[test]
 fn the_table_of_advice_has_the_figures_of_the_experiments() {
-    for (id, runs) in [("hou-offline", 60), ("hou-realtime", 60), ("jin", 20), ("qin", 6), ("gan", 60), ("jiang", 2)] {
+    for (id, runs) in [("hou-offline", 60), ("hou-realtime", 60), ("jin", 20), ("qin", 6), ("gan", 60), ("jiang", 8)] {
         let result = reproduced(id, runs);
         let of = CHOICES.iter().flat_map(|choice| choice.measured).filter(|m| m.experiment == id);
         for measured in of {
             let now = figure(&result, measured.row, measured.column);
-            let within = 0.1 * measured.value + 1.5;
+            let within = 0.1 * measured.value + 4.0;
             assert!((now - measured.value).abs() <= within, "{id} {:?}: {now}, not {}", measured.row, measured.value);
         }
     }

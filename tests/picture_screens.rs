@@ -223,7 +223,7 @@ fn all_methods_are_asked_once_and_again_when_the_question_changes() {
 #[test]
 fn detectability_of_the_settings_in_force() {
     for (label, size) in [("80x24", (80, 24)), ("120x40", (120, 40))] {
-        let bench = Bench::on("demo.csv", UNICODE_DARK).size(size).keys("W");
+        let bench = Bench::on("demo.csv", UNICODE_DARK).size(size).keys("g m");
         assert!(bench.frame().contains("measuring"), "{}", bench.frame());
         let bench = bench.measured();
         assert_snapshot!(format!("detectability_{label}"), bench.frame());

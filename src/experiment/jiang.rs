@@ -121,7 +121,7 @@ const READINGS: [(&str, Keys); 8] = [
     ("start 6, third differences below delta", &[("start", "6"), ("start_limit", "delta")]),
     ("the text: start 6, below delta, two points", &[("start", "6"), ("start_limit", "delta"), ("two_point", "true")]),
     ("points 8", &[("points", "8")]),
-    ("every order on 6 points", &[("parabola_points", "6"), ("cubic_points", "6")]),
+    ("every order on 6 points", &[("points_2", "6"), ("points_3", "6")]),
     (LOOSE, &[("delta", "12")]),
     (STRICT, &[("delta", "6")]),
 ];
@@ -130,8 +130,8 @@ const STRICT: &str = "delta 6";
 
 /// Order 3 alone, on as many points as told.
 const CUBICS: [(&str, Keys); 2] = [
-    ("third order on 6 points, both", &[("cubic_points", "6")]),
-    ("third order on 12 points, both", &[("cubic_points", "12")]),
+    ("third order on 6 points, both", &[("points_3", "6")]),
+    ("third order on 12 points, both", &[("points_3", "12")]),
 ];
 
 /// Residuals against a smoothing spline, eq. (2), before and after the rejection.

@@ -103,7 +103,7 @@ fn findings(findings: &[Finding], out: &mut String) {
             Held::No => "not",
             Held::CannotTell => "untold",
         };
-        let fitted = if finding.fitted { " <b>The stand-in was fitted to this.</b>" } else { "" };
+        let fitted = if finding.fitted { ". <b>The stand-in was fitted to this.</b>" } else { "" };
         let _ = writeln!(
             out,
             "<tr><td class=\"wide {class}\">{}</td><td>{}</td><td>{}{fitted}</td></tr>",

@@ -68,7 +68,7 @@ fn of_wright_and_chauvenet(rates: Rates<'_>) -> Vec<Finding> {
         Finding::untold(
             "chauvenet-cheap",
             "Chauvenet costs little",
-            "here all criteria cost about the same, for means and deviations are updated and not worked out anew",
+            "all criteria cost about the same in this program, for means and deviations are updated and not worked out anew",
         ),
     ]
 }

@@ -105,26 +105,24 @@ pub(super) fn findings(runs: Runs<'_>) -> Vec<Finding> {
 
 fn finding(statement: &Statement, runs: Runs<'_>) -> Finding {
     let of = |reading: &Reading| (statement.holds)(runs, reading);
-    let [printed, ours, seconds] = &READINGS;
-    let words = |reading: &Reading| {
-        let part = |label: &&str| format!("{} {:.1}", plain(label), runs.mean(label, statement.column));
-        reading.labels().iter().map(part).collect::<Vec<_>>().join(", ")
-    };
+    let [printed, at_3, ours, seconds] = &READINGS;
+    let part = |label: &&str| format!("{} {:.1}", plain(label), runs.mean(label, statement.column));
+    let words = printed.labels().iter().map(part).collect::<Vec<_>>().join(", ");
     let what = statement.of.map_or("false alarms".to_owned(), |n| format!("found of {n}"));
-    let word = |holds: bool| if holds { "holds" } else { "does not" };
-    let hangs = match (of(printed) == of(ours), of(printed) == of(seconds)) {
-        (true, true) => "the other readings give the same".to_owned(),
-        (false, true) => "it hangs on the rule that ends a run, and on k".to_owned(),
-        (true, false) => "it hangs on what i counts".to_owned(),
-        (false, false) => "it hangs on the rule that ends a run, and on what i counts".to_owned(),
+    let others = [(at_3, "the limit of adaptive"), (ours, "the rule that ends a run"), (seconds, "what i counts")];
+    let hangs: Vec<&str> = others.iter().filter(|(r, _)| of(r) != of(printed)).map(|(_, on)| *on).collect();
+    let hangs = if hangs.is_empty() {
+        "no other reading changes that".into()
+    } else {
+        format!("it hangs on {}", hangs.join(", on "))
     };
+    let word = |reading: &Reading| if of(reading) { "holds" } else { "does not" };
     let measured = format!(
-        "{what}, as printed: {}; with our rules ({}): {}; with i in seconds ({}): {}; {hangs}",
-        words(printed),
-        word(of(ours)),
-        words(ours),
-        word(of(seconds)),
-        words(seconds)
+        "{what}, as printed: {words}; with adaptive at 3 scales it {}, with the defaults here it {}, with i in seconds it {}: \
+         {hangs}",
+        word(at_3),
+        word(ours),
+        word(seconds)
     );
     Finding::new(statement.id, statement.text, of(printed), measured)
 }

@@ -62,7 +62,7 @@ impl Method for Gesd {
 }
 
 fn criterion(settings: &Settings) -> Rosner {
-    let critical = Critical::new(settings.real(shared::ALPHA.key), Chance::OfBlock);
+    let critical = Critical::new(settings.real(shared::ALPHA.key), Chance::Block);
     Rosner { critical, max_fraction: settings.real(MAX_FRACTION.key) }
 }
 
@@ -221,7 +221,7 @@ mod tests {
             ("steps", &|i| wave(i).round() + if i % 100 == 7 { 15.0 } else { 0.0 }),
         ];
         let t: Vec<f64> = (0..3000).map(f64::from).collect();
-        let rosner = Rosner { critical: Critical::new(0.05, Chance::OfBlock), max_fraction: 0.35 };
+        let rosner = Rosner { critical: Critical::new(0.05, Chance::Block), max_fraction: 0.35 };
         for (name, shape) in shapes {
             let y: Vec<f64> = (0..3000).map(shape).collect();
             let series = Series::new(&t, &y);
@@ -246,7 +246,7 @@ mod tests {
         let segment =
             Segment::of(&series, &(0..4000), &Scales { sigma: 0.0, floor: 0.0, floors: None, objections: None }, None);
         let survivors = Survivors { residual: &y, position: &[], segment: &segment, zero: 0.0 };
-        let critical = Critical::new(0.05, Chance::OfBlock).at(2601);
+        let critical = Critical::new(0.05, Chance::Block).at(2601);
         let mut removals = Removals::new(&y, &Stop::never()).unwrap();
         let later = Later::of(&survivors, &removals.left, (2600, critical), &Stop::never()).unwrap();
         let mut tried = 0;

@@ -61,6 +61,6 @@ impl Method for Grubbs {
 }
 
 fn criterion(settings: &Settings) -> impl Criterion {
-    let chance = if settings.word(SIDES.key) == "one" { Chance::OfOneSide } else { Chance::OfBlock };
+    let chance = if settings.word(SIDES.key) == "one" { Chance::OneSide } else { Chance::Block };
     OneAtATime(Critical::new(settings.real(shared::ALPHA.key), chance))
 }

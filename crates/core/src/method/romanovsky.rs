@@ -46,5 +46,5 @@ impl Method for Romanovsky {
 }
 
 fn criterion(settings: &Settings) -> impl Criterion {
-    OneAtATime(Critical::new(settings.real(shared::ALPHA.key), Chance::OfSample))
+    OneAtATime(Critical::new(settings.real(shared::ALPHA.key), Chance::Sample))
 }

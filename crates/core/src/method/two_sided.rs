@@ -26,14 +26,15 @@ static PARAMS: &[Param] = &[
     ORDER,
     VARIABLE_ORDER,
     POINTS,
-    PARABOLA_POINTS,
-    CUBIC_POINTS,
     TWO_POINT,
     START,
-    START_LIMIT,
     MAX_RUN,
     DIRECTION,
     REPAIR_RULE,
+    // What is seldom turned comes last.
+    POINTS_2,
+    POINTS_3,
+    START_LIMIT,
     shared::MAX_GAP,
     shared::FLOOR,
     shared::DOUBT,
@@ -91,8 +92,8 @@ const POINTS: Param = Param {
     matters: always,
 };
 
-const PARABOLA_POINTS: Param = Param {
-    key: "parabola_points",
+const POINTS_2: Param = Param {
+    key: "points_2",
     help: "fitting points of the parabola (off: twice those of the line)",
     unit: "samples",
     kind: Kind::WholeOrOff { min: 4, max: 90 },
@@ -101,8 +102,8 @@ const PARABOLA_POINTS: Param = Param {
     matters: |s| takes_part(s, 2),
 };
 
-const CUBIC_POINTS: Param = Param {
-    key: "cubic_points",
+const POINTS_3: Param = Param {
+    key: "points_3",
     help: "fitting points of the cubic (off: three times those of the line)",
     unit: "samples",
     kind: Kind::WholeOrOff { min: 5, max: 90 },

@@ -15,12 +15,12 @@ use crate::stop::{Stop, Stopped};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::method) enum Chance {
     /// A false alarm among all residuals of clean data.
-    OfBlock,
+    Block,
     /// The same on one side alone: that the largest is one; and likewise the smallest (the tables of Grubbs that
     /// textbooks print).
-    OfOneSide,
+    OneSide,
     /// A false alarm for each residual.
-    OfSample,
+    Sample,
 }
 
 /// Critical values of `max |v - mean| / s` among `n` residuals (Grubbs 1969, eq. of section 2 of `docs/methods.md`).
@@ -49,9 +49,9 @@ impl Critical {
     fn work_out(&self, n: usize) -> f64 {
         let n = n as f64;
         let p = match self.chance {
-            Chance::OfBlock => self.alpha / (2.0 * n),
-            Chance::OfOneSide => self.alpha / n,
-            Chance::OfSample => self.alpha / 2.0,
+            Chance::Block => self.alpha / (2.0 * n),
+            Chance::OneSide => self.alpha / n,
+            Chance::Sample => self.alpha / 2.0,
         };
         let t = student_upper(p, n - 2.0);
         (n - 1.0) / n.sqrt() * (t * t / (n - 2.0 + t * t)).sqrt()
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn critical_values_grow_with_the_sample_and_so_bracket_each_other() {
         for alpha in [0.5, 0.05, 0.01, 1e-9] {
-            let critical = Critical::new(alpha, Chance::OfBlock);
+            let critical = Critical::new(alpha, Chance::Block);
             let values: Vec<f64> = (3..3000).map(|n| critical.at(n)).collect();
             assert!(values.windows(2).all(|w| w[1] >= w[0] * (1.0 - 1e-12)), "{alpha}");
         }

@@ -39,7 +39,7 @@ fn most_deviant(y: &[f64], left: &[usize]) -> (f64, f64, usize) {
 
 /// Rosner's test as he writes it, pass after pass, about the mean.
 fn rosner(y: &[f64], alpha: f64, fraction: f64) -> Vec<usize> {
-    let critical = Critical::new(alpha, Chance::OfBlock);
+    let critical = Critical::new(alpha, Chance::Block);
     let mut all: Vec<usize> = (0..y.len()).collect();
     let mut found = Vec::new();
     while all.len() >= 3 {

@@ -24,8 +24,8 @@ pub(super) const TWO_POINT: u8 = 4;
 impl Candidate {
     fn of_order(order: usize, settings: &Settings) -> Self {
         let own = match order {
-            2 => settings.whole_or_off("parabola_points"),
-            3 => settings.whole_or_off("cubic_points"),
+            2 => settings.whole_or_off("points_2"),
+            3 => settings.whole_or_off("points_3"),
             _ => None,
         };
         let points = own.unwrap_or_else(|| order * settings.whole("points"));
