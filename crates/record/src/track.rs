@@ -73,7 +73,7 @@ pub use keywords::{TimeUnit, Worded};
 pub use lines::{FileLine, LinePart, first_lines};
 pub use load::{load, load_extent, load_while};
 pub use multi_track::Target;
-pub use names::is_id;
+pub use names::{is_id, is_spread};
 pub use number::{Cell, Reading, number_text, without_signed_zero};
 pub use options::{LoadOptions, Rules};
 #[cfg(any(test, feature = "faults"))]
@@ -333,6 +333,8 @@ pub enum Aside {
     Quality,
     /// One value.
     Constant,
+    /// It tells how an instrument was set, beside the first rows.
+    Setting,
 }
 
 impl Aside {
@@ -347,6 +349,7 @@ impl Aside {
             Self::Flag => "flag",
             Self::Quality => "quality",
             Self::Constant => "constant",
+            Self::Setting => "setting",
         }
     }
 
@@ -361,6 +364,7 @@ impl Aside {
             Self::Flag => "it holds two values",
             Self::Quality => "it holds few values, under a name of quality",
             Self::Constant => "it holds one value",
+            Self::Setting => "settings beside the first rows",
         }
     }
 }
@@ -378,6 +382,20 @@ pub struct Channel {
     pub target: Option<Target>,
     /// One value per row (of its target, where it has one); NaN where there is none.
     pub values: Vec<f64>,
+}
+
+impl Channel {
+    /// The unit, where the name does not end with it in brackets.
+    #[must_use]
+    pub fn unit_beside_name(&self) -> &str {
+        let within = |open: char, close: char| {
+            self.name
+                .strip_suffix(close)
+                .and_then(|rest| rest.rsplit_once(open))
+                .is_some_and(|(_, unit)| unit == self.unit)
+        };
+        if within('[', ']') || within('(', ')') { "" } else { &self.unit }
+    }
 }
 
 /// The times of a record.

@@ -24,12 +24,9 @@ mod scalar;
 mod tables;
 mod text;
 
-#[cfg(test)]
-mod tests;
-
 use array::Store;
-pub(super) use matlab::BEGINNING as MATLAB_BEGINNING;
 use errors::Trouble;
+pub(super) use matlab::BEGINNING as MATLAB_BEGINNING;
 use tables::Tables;
 
 /// HDF5 and NetCDF-4.
