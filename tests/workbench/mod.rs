@@ -12,7 +12,7 @@ use wildpoint::stop::Stop;
 use wildpoint::track::{LoadOptions, Source, load};
 use wildpoint::tui::advice::Advise;
 use wildpoint::tui::consensus::Poll;
-use wildpoint::tui::detectability::{Copies, Finding, Job, Subject};
+use wildpoint::tui::detectability::{Job, Subject};
 use wildpoint::tui::files::{FileEntry, FileKind, Listing, News, Task};
 use wildpoint::tui::jobs::Judge;
 use wildpoint::tui::message::{Effect, Message};
@@ -80,30 +80,9 @@ impl Bench {
         update(&mut self.0, Message::Polled { generation: 7, plan, consensus });
     }
 
-    /// A measurement of detectability is under way until [`Bench::measured`].
+    /// A measurement of detectability is under way.
     fn study(&mut self, plan: usize, subject: Subject) {
         self.0.studying = Some(Job::new(&self.0, plan, subject).started(7));
-    }
-
-    /// The measurement that is under way is over.
-    pub fn measured(mut self) -> Self {
-        let Some(studying) = self.0.studying.clone() else { panic!("nothing is being measured") };
-        let job = Job::new(&self.0, studying.plan, studying.subject);
-        let mut last = None;
-        job.run(&Copies::default(), &Stop::never(), |finding, rounds| last = Some((finding, rounds))).unwrap();
-        let Some((mut finding, rounds)) = last else { panic!("nothing was found") };
-        if let Finding::Methods(studied) = &mut finding {
-            // A still frame has no clock.
-            studied.advice.methods.iter_mut().for_each(|m| m.milliseconds = 0.0);
-        }
-        let message = Message::Studied { generation: 7, plan: studying.plan, finding, rounds };
-        for effect in update(&mut self.0, message) {
-            match effect {
-                Effect::Analyse(plan) => self.judge(plan),
-                other => panic!("{other:?} follows on a measurement"),
-            }
-        }
-        self
     }
 
     pub fn size(mut self, (width, height): (u16, u16)) -> Self {
