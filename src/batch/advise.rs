@@ -107,7 +107,7 @@ fn table(methods: &[Measured], unit: &str) -> String {
     }
     let unit = if unit.is_empty() { "channel units".to_owned() } else { printable(unit) };
     let legend = format!(
-        "sizes and repair errors in {unit}; x2, x5, x10: runs of so many; -: none of the sizes; alone: flags of fewer \
+        "sizes and repair errors in {unit}; x2, x5, x10: runs of this many samples; -: none of the sizes; alone: flags of fewer \
          than half of the methods\n"
     );
     columns(&rows) + &legend

@@ -51,7 +51,7 @@ pub struct AdviseArgs {
     /// Search settings of this method with which it finds more, its threshold and noise scale aside.
     #[arg(long, value_name = "METHOD", conflicts_with = "method")]
     pub tune: Option<String>,
-    /// Try no further settings after so many seconds.
+    /// Try no further settings after this many seconds.
     #[arg(long, value_name = "N", default_value_t = 20.0, requires = "tune", value_parser = seconds)]
     pub seconds: f64,
     /// Samples of the untouched record that tuned settings may flag [default: as many as the settings before].
@@ -67,5 +67,5 @@ pub struct AdviseArgs {
 
 fn seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse().ok().filter(|s: &f64| s.is_finite() && *s > 0.0);
-    seconds.ok_or_else(|| "a positive number of seconds is wanted".to_owned())
+    seconds.ok_or_else(|| "expected a positive number of seconds".to_owned())
 }
