@@ -117,7 +117,7 @@ fn has(text: &str, word: &str) -> bool {
         let inside = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == '-');
         // A comma begins a word by itself.
         let starts = word.starts_with(char::is_alphanumeric);
-        !(starts && inside(before)) && !inside(after)
+        !(inside(after) || starts && inside(before))
     })
 }
 

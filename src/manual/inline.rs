@@ -5,7 +5,12 @@ pub(super) fn plain(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     // Every second part is code, in which nothing is markup.
     for (i, part) in text.split('`').enumerate() {
-        if i % 2 == 1 { out.push_str(&part.replace("\\|", "|")) } else { out.push_str(&unmarked(part)) }
+        match i % 2 {
+            // Several words of code are told from the text around them.
+            1 if part.contains(' ') => out.push_str(&format!("`{}`", part.replace("\\|", "|"))),
+            1 => out.push_str(&part.replace("\\|", "|")),
+            _ => out.push_str(&unmarked(part)),
+        }
     }
     out
 }
@@ -60,7 +65,7 @@ mod tests {
     #[test]
     fn markup_goes_and_words_stay() {
         for (marked, wanted) in [
-            ("**Run** `a * b` and *see* it", "Run a * b and see it"),
+            ("**Run** `a * b` and *see* it", "Run `a * b` and see it"),
             ("[Verdicts](explanation/verdicts.md), [web](https://e.org)", "Verdicts, web <https://e.org>"),
             ("![A flag](x.svg)", "[picture: A flag]"),
             ("`a\\|b` or a\\|b, sum (k * s), [001] s.2", "a|b or a|b, sum (k * s), [001] s.2"),
