@@ -68,7 +68,8 @@ static ABOUT: About = About {
     source: "[001] section 3, eqs. (27)-(34)",
     advice: "Noise that changes along the track, in real time: the limit follows the latest residuals. [001] finds it \
              most effective on patches and best where isolated, constant and varying outliers mix; on its own \
-             experiment as we simulate it that does not hold. Wants window good samples before the scale is its own. \
+             experiment as we simulate it that holds only as printed, with no limit to a run and most good samples \
+             flagged. Wants window good samples before the scale is its own. \
              A patch raises the scale it is judged by, so the end of a long one is missed.",
     params: PARAMS,
     own: Own::Expected,
