@@ -26,7 +26,7 @@ static PARAMS: &[Param] = &[
 
 const K: Param = shared::K.with_default(Value::Real(3.5)).with_paper(Some(Paper::printed(
     Value::Real(1.5),
-    "[001] decides at its C of 1.5 scales, where about one good sample in ten is flagged",
+    "[001] decides at its C of 1.5 scales, which flags one good sample in ten and more",
 )));
 
 const WINDOW: Param = Param {
@@ -35,7 +35,7 @@ const WINDOW: Param = Param {
     unit: "samples",
     kind: Kind::Whole { min: 16, max: 100, step: 1 },
     default: Value::Whole(30),
-    paper: Some(Paper::printed(Value::Whole(20), "the upper end of the 16 to 30 of [001]: the steadiest scale")),
+    paper: Some(Paper::open(Value::Whole(20), "[001] gives 16 to 30: the upper end has the steadiest scale")),
     matters: always,
 };
 
