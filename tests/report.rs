@@ -282,3 +282,33 @@ fn printed_nothing_is_cut() {
         assert!(text.contains(&plain(wanted)), "{wanted} is cut");
     }
 }
+
+#[test]
+fn a_reproduction_is_drawn_as_a_page_for_each_document() {
+    let folder = Folder::with(&[]);
+    let text = folder.done("reproduce gan --runs 2 --report gan.html");
+    let page = folder.text("gan.html");
+    // Every statement of the text is a row of the page, with the same word.
+    let words = ["holds", "does not", "cannot be told"];
+    let told = |word: &&str| text.lines().filter(|l| l.starts_with(&format!("  {word:14}  "))).count();
+    let drawn = |word: &&str| page.matches(&format!("\">{word}</td>")).count();
+    assert_eq!(words.iter().map(told).collect::<Vec<_>>(), words.iter().map(drawn).collect::<Vec<_>>());
+    assert!(words.iter().map(told).sum::<usize>() >= 6, "{text}");
+    // Three results, each with its record, its flags and its residual.
+    assert_eq!((page.matches("<h2>[004]</h2>").count(), page.matches("<figure>").count()), (1, 9));
+    assert!(!page.contains("<script") && !page.contains(" src="), "nothing runs, nothing is fetched");
+    let curves = folder.done("reproduce qin --runs 2 --json --report qin.html");
+    assert!(curves.starts_with('[') && folder.text("qin.html").matches("class=\"curve ").count() == 24);
+}
+
+#[test]
+fn a_report_of_a_reproduction_is_refused_before_the_runs() {
+    let folder = Folder::with(&[("there.html", b"mine")]);
+    let refused = |words: &str| folder.run(&format!("reproduce gan --runs 2 {words}"));
+    let exists = refused("--report there.html");
+    assert_eq!((exists.status, exists.out.as_str(), folder.text("there.html").as_str()), (2, "", "mine"));
+    let ending = refused("--report page.pdf");
+    assert!(ending.status == 2 && ending.err.contains(".html"), "{}", ending.err);
+    assert_eq!(refused("--report there.html --force").status, 0);
+    assert_eq!(folder.names(), ["there.html"]);
+}

@@ -55,6 +55,7 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
         methods: rows,
         skipped,
         agreement: ballot.agreement(),
+        groups: ballot.groups(),
         consensus,
     };
     if args.outputs.json {

@@ -56,6 +56,8 @@ pub(super) struct Told {
     pub(super) skipped: Vec<Skipped>,
     /// From one method to all of them.
     pub(super) agreement: Vec<Agreement>,
+    /// Methods that flag exactly the same samples.
+    pub(super) groups: Vec<Vec<&'static str>>,
     /// The consensus, where it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) consensus: Option<Row>,
@@ -107,6 +109,10 @@ impl Told {
         for a in &self.agreement {
             rows.push(vec![a.methods.to_string(), a.exactly.to_string(), a.at_least.to_string()]);
         }
-        out + &columns(&rows)
+        out += &columns(&rows);
+        for group in &self.groups {
+            let _ = writeln!(out, "the same samples: {}", group.join(", "));
+        }
+        out
     }
 }

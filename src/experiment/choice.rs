@@ -119,7 +119,13 @@ pub static CHOICES: &[Choice] = &[
         real_time: false,
         method: "grubbs",
         document: "[001] the best of its criteria",
-        measured: &[of(OFFLINE, &["grubbs"], 1, 13.0, ("of 24 outliers that mask each other", " %; use gesd there"))],
+        measured: &[of(
+            OFFLINE,
+            &["grubbs"],
+            1,
+            13.0,
+            ("found", " % of 24 outliers that mask each other (gesd is made for that)"),
+        )],
     },
     Choice {
         outliers: "patches, varying",
@@ -153,8 +159,8 @@ pub static CHOICES: &[Choice] = &[
         method: "two-sided",
         document: "[000] better than one direction, and than any fixed order",
         measured: &[
-            of("jiang", &["variable, both"], 7, 9.0, ("of 135", " missed")),
-            of("jiang", &["variable, both"], 8, 33.0, ("", " false of 19150")),
+            of("jiang", &["variable, both"], 7, 9.0, ("missed", " of 135")),
+            of("jiang", &["variable, both"], 8, 33.0, ("false", " of 19150")),
         ],
     },
     Choice {
@@ -191,7 +197,7 @@ pub static CHOICES: &[Choice] = &[
         measured: &[
             of(REALTIME, &["adaptive (ours)"], 1, 43.0, ("found", " %")),
             of(REALTIME, &["alpha-beta-gamma (ours)"], 1, 75.0, ("alpha-beta-gamma", " %")),
-            of(REALTIME, &["adaptive"], 6, 141.0, ("as printed", " of 176 false")),
+            of(REALTIME, &["adaptive"], 6, 141.0, ("false as printed", " of 176")),
         ],
     },
     Choice {

@@ -140,7 +140,9 @@ impl Cell {
     /// A figure with its deviation from run to run.
     #[must_use]
     pub fn with_spread(value: f64, spread: f64, decimals: usize) -> Self {
-        if value.is_nan() { Self::Empty } else { Self::Number { value, decimals, spread: Some(spread) } }
+        // One run has no deviation.
+        let spread = (!spread.is_nan()).then_some(spread);
+        if value.is_nan() { Self::Empty } else { Self::Number { value, decimals, spread } }
     }
 
     /// As a table of text has it.
@@ -227,5 +229,6 @@ mod tests {
         assert_eq!(runs.count(|run| run.mean("a", 1) > 6.0), 2);
         assert_eq!(Cell::number(runs.mean("b", 0), 1).shown(), "-");
         assert_eq!(Cell::with_spread(2.5, 2.12, 1).shown(), "2.5 ± 2.1");
+        assert_eq!(Cell::with_spread(2.5, f64::NAN, 1).shown(), "2.5", "of one run");
     }
 }

@@ -109,6 +109,20 @@ impl Ballot {
         self.voters.iter().filter(|(_, own)| found(own)).map(|(id, _)| *id).collect()
     }
 
+    /// Methods that flag exactly the same samples, in the order in which they voted; a method that agrees with no other,
+    /// and those that flag nothing, are in no group.
+    #[must_use]
+    pub fn groups(&self) -> Vec<Vec<&'static str>> {
+        let mut groups: Vec<(&[u32], Vec<&'static str>)> = Vec::new();
+        for (id, own) in self.voters.iter().filter(|(_, own)| !own.is_empty()) {
+            match groups.iter_mut().find(|(flagged, _)| *flagged == own.as_slice()) {
+                Some((_, group)) => group.push(id),
+                None => groups.push((own, vec![id])),
+            }
+        }
+        groups.into_iter().map(|(_, group)| group).filter(|group| group.len() > 1).collect()
+    }
+
     /// The votes that make at least half of the methods.
     #[must_use]
     pub fn half(&self) -> usize {
@@ -179,6 +193,11 @@ mod tests {
         assert_eq!((ballot.voters(1), ballot.voters(3), ballot.votes(0)), (vec!["a", "c"], vec!["c"], 3));
         assert_eq!((ballot.half(), ballot.agreed(2, &Stop::never()).unwrap(), ballot.votes(9)), (2, vec![0, 1], 0));
         assert_eq!(ballot.others(1), ["b"]);
+        assert!(ballot.groups().is_empty());
+        ballot.add("d", &[O, N, N, U, N], &Stop::never()).unwrap();
+        ballot.add("e", &[N; 5], &Stop::never()).unwrap();
+        ballot.add("f", &[N; 5], &Stop::never()).unwrap();
+        assert_eq!(ballot.groups(), [["b", "d"]]);
     }
 
     #[test]

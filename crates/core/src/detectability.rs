@@ -79,8 +79,8 @@ pub struct Rounds {
     pub done: usize,
     /// Rounds in all; 0 before the first is done.
     pub all: usize,
-    /// Wild points that were put in so far.
-    events: usize,
+    /// Parts of copies in which a wild point was wanted so far.
+    wanted: usize,
 }
 
 /// What a method says of the untouched record.
@@ -171,7 +171,7 @@ impl Study {
             return Ok(false);
         }
         let order = shuffled(ground.wanted.len(), self.seed);
-        let wanted = |i: usize| ground.wanted[order[(self.rounds.events + i) % order.len()]];
+        let wanted = |i: usize| ground.wanted[order[(self.rounds.wanted + i) % order.len()]];
         // Rounds of one seed must differ, and those of neighbouring seeds, too.
         let seed = self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(self.rounds.done as u64 + 1);
         let round = Round::new(ground, seed, wanted, stop)?;
@@ -182,7 +182,7 @@ impl Study {
             self.rounds.all = rounds(ground, round.events());
         }
         self.rounds.done += 1;
-        self.rounds.events += round.events();
+        self.rounds.wanted += ground.events_at_once();
         self.copies.push(round);
         Ok(self.rounds.done < self.rounds.all)
     }

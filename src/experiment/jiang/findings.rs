@@ -1,7 +1,7 @@
 //! Which statements of \[000\] hold.
 
 use super::{BEST, FALSE, FLAGGED, LOOSE, MISSED, NEAR_THE_LOSS, SPLINE, STRICT};
-use crate::experiment::{Finding, Runs};
+use crate::experiment::{Cell, Finding, Runs};
 
 /// All statements.
 pub(super) fn findings(runs: Runs<'_>) -> Vec<Finding> {
@@ -109,14 +109,10 @@ fn of_directions(runs: Runs<'_>) -> Vec<Finding> {
                 && (runs.mean(BEST, MISSED) - 9.0).abs() <= 6.0
                 && (falses(BEST) - 36.0).abs() <= 20.0,
             format!(
-                "{:.0} ± {:.0} flagged, {:.0} ± {:.0} missed, {:.0} ± {:.0} false; with the start of 6 of the settings \
-                 {:.0}, {:.0} and {:.0}",
-                runs.mean(BEST, FLAGGED),
-                runs.spread(BEST, FLAGGED),
-                runs.mean(BEST, MISSED),
-                runs.spread(BEST, MISSED),
-                falses(BEST),
-                runs.spread(BEST, FALSE),
+                "{} flagged, {} missed, {} false; with the start of 6 of the settings {:.0}, {:.0} and {:.0}",
+                Cell::with_spread(runs.mean(BEST, FLAGGED), runs.spread(BEST, FLAGGED), 0).shown(),
+                Cell::with_spread(runs.mean(BEST, MISSED), runs.spread(BEST, MISSED), 0).shown(),
+                Cell::with_spread(falses(BEST), runs.spread(BEST, FALSE), 0).shown(),
                 runs.mean("start 6", FLAGGED),
                 runs.mean("start 6", MISSED),
                 runs.mean("start 6", FALSE),

@@ -193,11 +193,18 @@ fn share(count: usize, samples: usize) -> f64 {
 
 /// The share of all that was put in: single points weigh as much as all other kinds together.
 fn recall(curves: &[Curve]) -> f64 {
-    let recall = |kind: &Curve| kind.recall.unwrap_or(0.0);
-    let (single, others): (Vec<&Curve>, Vec<&Curve>) = curves.iter().partition(|c| c.kind == Kind::Single);
-    #[expect(clippy::cast_precision_loss, reason = "a few kinds")]
-    let mean = |of: &[&Curve]| of.iter().map(|c| recall(c)).sum::<f64>() / of.len().max(1) as f64;
-    OF_SINGLE * mean(&single) + (1.0 - OF_SINGLE) * mean(&others)
+    // A kind for which there was room nowhere says nothing.
+    let mean = |single: bool| {
+        let known: Vec<f64> =
+            curves.iter().filter(|c| (c.kind == Kind::Single) == single).filter_map(|c| c.recall).collect();
+        #[expect(clippy::cast_precision_loss, reason = "a few kinds")]
+        let mean = (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64);
+        mean
+    };
+    match (mean(true), mean(false)) {
+        (Some(single), Some(others)) => OF_SINGLE * single + (1.0 - OF_SINGLE) * others,
+        (single, others) => single.or(others).unwrap_or(0.0),
+    }
 }
 
 /// The rows from the best to the worst. Of equally good ones the first is that with the fewest false flags, then that

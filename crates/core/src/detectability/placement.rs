@@ -71,14 +71,14 @@ impl Places {
         self.fits(range.clone()).then_some(range)
     }
 
-    /// An event in each of `count` equal parts of the record, the first of which is `wanted(0)`; a part in which there
-    /// is no room stays empty, and what was wanted there comes next.
+    /// An event in each of `count` equal parts of the record: in the first what is `wanted(0)`. A part in which there is no
+    /// room for it stays empty.
     pub(super) fn place(&self, count: usize, wanted: impl Fn(usize) -> Wanted, random: &mut Random) -> Vec<Event> {
         let n = self.begun.len();
         let mut events: Vec<Event> = Vec::with_capacity(count);
-        for part in 0..count {
-            let part = part * n / count..(part + 1) * n / count;
-            let Wanted { kind, size } = wanted(events.len());
+        for index in 0..count {
+            let part = index * n / count..(index + 1) * n / count;
+            let Wanted { kind, size } = wanted(index);
             let length = if kind == Kind::Dropout { random.whole(1, LONGEST_DROPOUT) } else { kind.length() };
             let from = random.whole(part.start, part.end.saturating_sub(1).max(part.start));
             let free_from = events.last().map_or(0, |before| before.range.end + MARGIN);
@@ -131,14 +131,21 @@ mod tests {
     }
 
     #[test]
-    fn a_part_without_room_stays_empty_and_nothing_wanted_is_lost() {
+    fn a_part_without_room_stays_empty_and_the_next_gets_its_own() {
         let mut calm = vec![true; 100];
         calm[..50].fill(false);
         let whole = 0..100;
         let places = Places::new(&calm, std::slice::from_ref(&whole), None);
         let events = places.place(2, |i| Wanted { kind: Kind::Single, size: i }, &mut Random::new(1));
         assert_eq!(events.len(), 1);
-        assert_eq!(events[0].size, 0);
+        assert_eq!(events[0].size, 1);
+        // A kind for which there is room nowhere holds up no other.
+        let kinds = [Kind::RunOf10, Kind::Single];
+        let short: Vec<Range<usize>> = (0..10).map(|i| 10 * i..10 * i + 10).collect();
+        let places = Places::new(&[true; 100], &short, None);
+        let events = places.place(10, |i| Wanted { kind: kinds[i % 2], size: 0 }, &mut Random::new(1));
+        assert_eq!(events.len(), 5);
+        assert!(events.iter().all(|event| event.kind == Kind::Single));
     }
 
     #[test]

@@ -26,7 +26,7 @@ static PARAMS: &[Param] = &[
 
 const K: Param = shared::K.with_default(Value::Real(3.5)).with_paper(Some(Paper::printed(
     Value::Real(1.5),
-    "[001] decides at its C of 1.5 scales, where about one good sample in ten is flagged",
+    "[001] decides at its C of 1.5 scales, which flags one good sample in ten and more",
 )));
 
 const WINDOW: Param = Param {
@@ -35,7 +35,7 @@ const WINDOW: Param = Param {
     unit: "samples",
     kind: Kind::Whole { min: 16, max: 100, step: 1 },
     default: Value::Whole(30),
-    paper: Some(Paper::printed(Value::Whole(20), "the upper end of the 16 to 30 of [001]: the steadiest scale")),
+    paper: Some(Paper::open(Value::Whole(20), "[001] gives 16 to 30: the upper end has the steadiest scale")),
     matters: always,
 };
 
@@ -68,7 +68,8 @@ static ABOUT: About = About {
     source: "[001] section 3, eqs. (27)-(34)",
     advice: "Noise that changes along the track, in real time: the limit follows the latest residuals. [001] finds it \
              most effective on runs and best where isolated, constant and varying outliers mix; on its own \
-             experiment as we simulate it that does not hold. Wants window good samples before the scale is its own. \
+             experiment as we simulate it that holds only as printed, with no limit to a run and most good samples \
+             flagged. Wants window good samples before the scale is its own. \
              A run of outliers raises the scale it is judged by, so the end of a long one is missed.",
     params: PARAMS,
     own: Own::Expected,

@@ -31,13 +31,13 @@ static PARAMS: &[Param] = &[
     MAX_RUN,
     DIRECTION,
     REPAIR_RULE,
+    shared::MAX_GAP,
+    shared::FLOOR,
+    shared::DOUBT,
     // What is seldom turned comes last.
     POINTS_2,
     POINTS_3,
     START_LIMIT,
-    shared::MAX_GAP,
-    shared::FLOOR,
-    shared::DOUBT,
 ];
 
 const DELTA: Param = Param {
