@@ -1,43 +1,59 @@
 //! How far work of more than a second is, on a terminal.
 
 use std::io::IsTerminal;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// Work that takes less shows nothing.
 const AFTER: Duration = Duration::from_secs(1);
+/// How often it is drawn then.
+const EVERY: Duration = Duration::from_millis(200);
 
 /// A bar for several items, a clock for one. It is on standard error, and only where that is a terminal; it goes when it is
 /// dropped.
-pub(super) struct Progress(ProgressBar);
+pub(super) struct Progress {
+    bar: ProgressBar,
+    /// Shows the bar after a while, unless the work has ended.
+    shower: Option<(Sender<()>, JoinHandle<()>)>,
+}
 
 impl Progress {
     /// For so many items.
     pub(super) fn new(items: usize, quiet: bool) -> Self {
-        if quiet || !std::io::stderr().is_terminal() {
-            return Self(ProgressBar::hidden());
-        }
         let template = if items > 1 { "[{bar:30}] {pos} of {len}, {eta} left" } else { "working, {elapsed}" };
         let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-        let bar = ProgressBar::new(items as u64).with_style(style.progress_chars("##."));
-        // The first tick draws it.
-        bar.enable_steady_tick(AFTER);
-        Self(bar)
+        let bar = ProgressBar::with_draw_target(Some(items as u64), ProgressDrawTarget::hidden());
+        let bar = bar.with_style(style.progress_chars("##."));
+        let shown = !quiet && std::io::stderr().is_terminal();
+        let shower = shown.then(|| {
+            let (ended, end) = channel::<()>();
+            let bar = bar.clone();
+            let show = move || {
+                if end.recv_timeout(AFTER) == Err(RecvTimeoutError::Timeout) {
+                    bar.set_draw_target(ProgressDrawTarget::stderr());
+                    bar.enable_steady_tick(EVERY);
+                }
+            };
+            (ended, std::thread::spawn(show))
+        });
+        Self { bar, shower }
     }
 
     /// One more is done.
     pub(super) fn done(&self) {
-        if self.0.elapsed() >= AFTER {
-            self.0.inc(1);
-        } else {
-            self.0.update(|state| state.set_pos(state.pos() + 1));
-        }
+        self.bar.inc(1);
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        if let Some((ended, shower)) = self.shower.take() {
+            drop(ended);
+            let _ = shower.join();
+        }
+        self.bar.finish_and_clear();
     }
 }
