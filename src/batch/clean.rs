@@ -15,7 +15,7 @@ use crate::session::{
     write_flagged, write_flagged_columns,
 };
 use crate::stop::Stop;
-use crate::track::{Outputs, Source, Track, is_columns_name, load, printable, write_columns};
+use crate::track::{CopyForm, Outputs, Source, Track, copy_form, load, printable, write_columns};
 
 pub(super) fn run(
     files: &[PathBuf],
@@ -101,7 +101,7 @@ pub(super) fn stage(
     if let Some(path) = &outputs.output {
         let changes = analysed.changes(track);
         let flags = outputs.flag_columns.map(|scheme| (scheme, flag_columns(track, analysed)));
-        let columns = is_columns_name(path, track);
+        let columns = copy_form(path, track)? == CopyForm::Columns;
         if let Some((_, flags)) = flags.as_ref().filter(|_| !columns) {
             summary.notes.extend(nameless(track, flags));
         }

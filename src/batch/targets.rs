@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::OutputArgs;
 use crate::error::{Error, Result};
 use crate::report::ReportForm;
-use crate::track::{names_columns, unpacked_name};
+use crate::track::{names_arrays, names_columns, unpacked_name};
 
 /// Where the outputs of one input go.
 #[derive(Debug, Clone)]
@@ -119,9 +119,10 @@ fn refuse_columns(outputs: &OutputArgs, session: Option<&Path>) -> Result<()> {
 const ONLY_CLEANED: &str = "only the cleaned file (-o) can be a Parquet file";
 const AS_CSV: &str = "give it a name that ends in .csv";
 
-/// The name of a file, for its cleaned version.
+/// The name of a file, for its cleaned version: one that is not written has text as its cleaned version.
 pub(super) fn file_name(path: &Path) -> String {
-    path.file_name().map_or_else(|| "cleaned.csv".into(), |n| n.to_string_lossy().into_owned())
+    let name = path.file_name().map_or_else(|| "cleaned.csv".into(), |n| n.to_string_lossy().into_owned());
+    if names_arrays(path) { format!("{}.csv", stem(&name)) } else { name }
 }
 
 /// True for a path that is meant as a folder. With one input a folder that is there has to be written as one, with a

@@ -2,7 +2,7 @@
 
 use super::labels::{DECIMAL, round_step};
 use super::view::View;
-use crate::track::{NANOSECONDS_PER_DAY, SECONDS_PER_DAY, TimeAxis, TimeFormat};
+use crate::track::{Clocks, NANOSECONDS_PER_DAY, SECONDS_PER_DAY, TimeAxis, TimeFormat};
 
 /// Which steps count as round.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,6 +81,7 @@ impl TimeTicks {
             time.origin_ns as f64 / 1e9
         };
         let unit = match time.format {
+            _ if calendar && time.clocks == Clocks::Unstated => "zone not stated",
             _ if calendar => "UTC",
             TimeFormat::Seconds => "s",
             TimeFormat::SampleNumber => "sample",

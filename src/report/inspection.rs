@@ -181,7 +181,7 @@ impl Inspection {
         let _ = writeln!(out, "rows      {}", self.rows);
         let range = self.time_range.as_ref().map_or("no usable time".to_owned(), |(a, b)| format!("{a} … {b}"));
         let duration = self.duration_s.map_or(String::new(), |d| format!(", {} s", short(d)));
-        let _ = writeln!(out, "time      {} ({}): {range}{duration}", printable(&self.time), self.time_format);
+        let _ = writeln!(out, "time      {} ({}): {range}{duration}", printable(&self.time), self.time_words());
         self.columns_text(&mut out);
         self.channels_text(&mut out);
         for channel in &self.channels {
@@ -205,6 +205,12 @@ impl Inspection {
             let _ = writeln!(out, "  note: {}", printable(note));
         });
         out
+    }
+
+    /// How times are written, and that nothing tells their zone where it is so.
+    pub(super) fn time_words(&self) -> String {
+        let zone = if self.time_facts.zone_stated { "" } else { ", zone not stated" };
+        format!("{}{zone}", self.time_format)
     }
 
     fn columns_text(&self, out: &mut String) {

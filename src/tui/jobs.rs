@@ -20,7 +20,7 @@ use crate::session::{
     document_without_record, settle, write_cleaned,
 };
 use crate::stop::Stop;
-use crate::track::{Lost, Outputs, Samples, Standing, Track, is_columns_name, write_columns};
+use crate::track::{CopyForm, Lost, Outputs, Samples, Standing, Track, copy_form, write_columns};
 
 /// A channel to judge.
 #[derive(Debug)]
@@ -233,7 +233,7 @@ pub fn export(track: &Track, session: &Session, outputs: &[Output], overwrite: b
     let mut files = outputs_of(track, overwrite);
     for Output { kind, path } in outputs {
         match kind {
-            OutputKind::Cleaned if is_columns_name(path, track) => {
+            OutputKind::Cleaned if copy_form(path, track)? == CopyForm::Columns => {
                 files.stage_columns(path, |w| write_columns(track, &changes, None, w))
             }
             OutputKind::Cleaned => files.stage(path, |w| write_cleaned(track, &changes, w).map(|_| ())),

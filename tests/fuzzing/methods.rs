@@ -183,6 +183,7 @@ pub(crate) fn made_of(seconds: Vec<f64>, channels: [(&str, Vec<f64>); 2]) -> Tra
             date_column: None,
             part_columns: Vec::new(),
             zone: None,
+            clocks: Default::default(),
             newest_first: false,
             format: TimeFormat::Seconds,
             origin_ns: 0,

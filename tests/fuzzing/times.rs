@@ -43,6 +43,7 @@ pub(super) fn body(data: &[u8]) {
         date_column: None,
         part_columns: Vec::new(),
         zone: None,
+        clocks: Default::default(),
         newest_first: false,
         format,
         origin_ns,

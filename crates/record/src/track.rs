@@ -9,6 +9,8 @@ use std::sync::Arc;
 use crate::memory::Share;
 
 mod add_columns;
+#[cfg(feature = "hdf5")]
+mod arrays;
 mod axis;
 mod body;
 mod built_in;
@@ -20,6 +22,7 @@ mod column_roles;
 mod columnar;
 mod csv_injection;
 mod extent;
+mod facts;
 mod feed;
 mod formats;
 mod head;
@@ -62,7 +65,7 @@ pub use add_columns::{NewColumn, rewrite_beside, widen};
 pub use calendar::{DAY as NANOSECONDS_PER_DAY, SECONDS_PER_DAY};
 pub use cells::Cells;
 pub use checks::RowChecks;
-pub use columnar::{FlagForm, is_columns_name, names_columns, write_columns};
+pub use columnar::{CopyForm, FlagForm, copy_form, names_arrays, names_columns, write_columns};
 pub use csv_injection::escape_formula;
 pub use extent::Extent;
 pub use formats::{FORMATS, Format, format_of};
@@ -203,6 +206,8 @@ pub struct RowsAt {
     pub(crate) closed: Option<&'static Format>,
     /// In a table that a format makes of a text: the lines of the text where its first rows begin.
     pub(crate) made_of: Vec<u64>,
+    /// Which of the tables that the file stores, from 1, where it stores some and the user says.
+    pub(crate) table: Option<usize>,
 }
 
 impl RowsAt {
@@ -388,6 +393,8 @@ pub struct TimeAxis {
     pub part_columns: Vec<usize>,
     /// The zone of clocks that write none; UTC without one.
     pub zone: Option<Zone>,
+    /// Whether anything tells the zone of the clocks.
+    pub clocks: Clocks,
     /// True when the newest row stands first.
     pub newest_first: bool,
     /// How the file writes times.
@@ -398,6 +405,16 @@ pub struct TimeAxis {
     /// One time per row in seconds after the origin, strictly increasing (in a table of several tracks: over the rows
     /// of each); NaN where the row has no usable time (none, unreadable, repeated, or before an earlier row).
     pub seconds: Vec<f64>,
+}
+
+/// Whether anything tells the zone of the clocks of a file.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Clocks {
+    /// The cells, the name of the column, the format of the file or the user; or the times are those of no clock.
+    #[default]
+    Stated,
+    /// Nothing does: they are taken as those of UTC, and not called so.
+    Unstated,
 }
 
 /// How a file writes times.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::track::{Delimiter, Encoding, Track};
+use crate::track::{Clocks, Delimiter, Encoding, Track};
 
 /// How the text of a record is laid out.
 #[derive(Debug, Clone, Serialize)]
@@ -78,6 +78,8 @@ pub struct TimeFacts {
     pub columns: Vec<String>,
     /// The zone of clocks that write none, where one is known.
     pub zone: Option<String>,
+    /// False where nothing tells the zone of the clocks.
+    pub zone_stated: bool,
     /// True when the newest row stands first.
     pub newest_first: bool,
     /// Rows with a usable time.
@@ -93,6 +95,7 @@ impl TimeFacts {
         Self {
             columns: places.into_iter().map(|c| track.columns[c].name.clone()).collect(),
             zone: time.zone.as_ref().map(|zone| zone.name().to_owned()),
+            zone_stated: time.clocks == Clocks::Stated,
             newest_first: time.newest_first,
             usable: time.seconds.iter().filter(|t| t.is_finite()).count(),
         }

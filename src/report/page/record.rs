@@ -37,7 +37,7 @@ pub(super) fn facts(inspection: &Inspection, summary: &Summary, clean_sha256: &s
         ("record", plain(Path::new(&inspection.file))),
         ("layout", inspection.layout.clone()),
         ("rows", inspection.rows.to_string()),
-        ("time", format!("{} ({})", inspection.time, inspection.time_format)),
+        ("time", format!("{} ({})", inspection.time, inspection.time_words())),
         ("from, to", range + &lasts),
         ("SHA-256 of the record", summary.sha256.clone()),
         ("SHA-256 of the cleaned file", clean_sha256.to_owned()),

@@ -7,7 +7,7 @@ use super::is_session;
 use crate::error::Result;
 use crate::session;
 use crate::stop::Stop;
-use crate::track::{ColumnKind, LoadOptions, Preview, RowsAt, Source, Track, Wanted, printable};
+use crate::track::{Clocks, ColumnKind, LoadOptions, Preview, RowsAt, Source, Track, Wanted, printable};
 
 /// How much of a record is read.
 const MOST: u64 = 1 << 20;
@@ -92,7 +92,8 @@ fn of_record(preview: &Preview) -> Seen {
     lines.push(crate::report::layout(track));
     let usable: Vec<f64> = track.time.seconds.iter().copied().filter(|t| t.is_finite()).collect();
     let from = usable.first().map_or("none is usable".into(), |t| format!("from {}", track.time.full_label(*t)));
-    lines.push(format!("time {} ({}), {from}", printable(&track.time.name), track.time.format.words()));
+    let zone = if track.time.clocks == Clocks::Unstated { ", zone not stated" } else { "" };
+    lines.push(format!("time {} ({}{zone}), {from}", printable(&track.time.name), track.time.format.words()));
     lines.extend(track.channels.first().map(|channel| steps(track, channel)));
     let names: Vec<String> = track.channels.iter().map(with_unit).collect();
     lines.push(format!("channels: {}", names.join(", ")));

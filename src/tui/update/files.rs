@@ -12,7 +12,7 @@ use super::{dialog, prompt, queue};
 use crate::error::{Error, Result, on_one_line};
 use crate::plot::Drawn;
 use crate::session::folder_of;
-use crate::track::{Packing, Source, Track, unpacked_name};
+use crate::track::{Source, Track, unpacked_name};
 
 pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
     Some(match action {
@@ -37,7 +37,7 @@ pub fn default_session(source: &Source) -> PathBuf {
 /// Where the cleaned file goes when nobody says where: a record that stores columns has a copy of its kind.
 #[must_use]
 pub(super) fn default_export(track: &Track) -> PathBuf {
-    let name = track.source.path().filter(|_| track.dialect.packing.is_some_and(Packing::is_columnar));
+    let name = track.source.path().filter(|_| track.dialect.packing.is_some_and(|packing| packing.is_columnar() && packing.is_written()));
     match name.and_then(Path::extension) {
         Some(own) => beside(&track.source, &format!(".clean.{}", own.to_string_lossy())),
         None => beside(&track.source, OutputKind::Cleaned.ending()),

@@ -3,7 +3,7 @@
 use super::calendar::{DAY, Date, SECOND};
 use super::timestamp::{self, Count};
 use super::timing::Timing;
-use super::{DateOrder, Part, TimeAxis, TimeFormat};
+use super::{Clocks, DateOrder, Part, TimeAxis, TimeFormat};
 
 /// More decimals than nanoseconds have are never written.
 const MOST_DECIMALS: usize = 9;
@@ -22,14 +22,15 @@ impl TimeAxis {
         }
     }
 
-    /// The whole time, with as many decimals as it needs, to the microsecond: `2019-11-11 17:57:05.25 UTC`,
-    /// `1239.5 s`. Empty for NaN.
+    /// The whole time, with as many decimals as it needs, to the microsecond: `2019-11-11 17:57:05.25 UTC` (without `UTC`
+    /// where nothing tells the zone), `1239.5 s`. Empty for NaN.
     #[must_use]
     pub fn full_label(&self, seconds: f64) -> String {
         let Some(ns) = self.ns_at(seconds) else { return String::new() };
         let digits = (0..6).find(|d| rounded(ns, *d) == rounded(ns, 6)).unwrap_or(6);
         let label = self.label(seconds, digits);
         match (self.date(seconds), &self.format) {
+            (Some(date), _) if self.clocks == Clocks::Unstated => format!("{date} {label}"),
             (Some(date), _) => format!("{date} {label} UTC"),
             (None, TimeFormat::Seconds) => format!("{label} s"),
             (None, _) => label,
@@ -138,6 +139,14 @@ impl TimeAxis {
         super::time::part_written(*part, parts, sample.trim(), self.local(ns))
     }
 
+    /// How far the clocks of a row are ahead of UTC, in seconds, where a column tells their zone; `cell` gives its cells.
+    pub(super) fn row_offset(&self, cell: impl Fn(usize) -> String) -> f64 {
+        let TimeFormat::Parts(parts) = &self.format else { return 0.0 };
+        let zone = parts.iter().zip(&self.part_columns).find(|(part, _)| **part == Part::Zone);
+        let offset = zone.and_then(|(_, column)| super::time::offset_in(&cell(*column), true));
+        seconds_of(offset.unwrap_or(0).into())
+    }
+
     /// The time in a form that says by its pieces how it is written.
     fn written(&self, ns: i128, sample: &str) -> Option<String> {
         let ns = i64::try_from(ns).ok()?;
@@ -223,7 +232,11 @@ impl TimeAxis {
 
     /// True where the numbers of the file are moments, whatever clocks show.
     pub(super) fn is_absolute(&self) -> bool {
-        matches!(self.format, TimeFormat::Epoch { .. } | TimeFormat::Since { .. })
+        match &self.format {
+            TimeFormat::Epoch { .. } | TimeFormat::Since { .. } => true,
+            TimeFormat::Parts(parts) => parts.contains(&Part::Zone),
+            _ => false,
+        }
     }
 
     /// True where the file counts nanoseconds.
@@ -413,6 +426,7 @@ mod tests {
             date_column: None,
             part_columns: Vec::new(),
             zone: None,
+            clocks: Clocks::Stated,
             newest_first: false,
             format,
             origin_ns,

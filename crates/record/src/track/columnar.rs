@@ -16,12 +16,17 @@ mod schema;
 mod settle;
 mod table;
 mod text;
+mod thrift;
 mod value;
 mod write;
 
-pub(crate) use settle::{refuse_layout, settle, with_layout};
+#[cfg(feature = "hdf5")]
+pub(crate) use kind::{float, quoted, timestamp};
+pub(crate) use settle::{refuse_layout, with_layout};
+#[cfg(feature = "hdf5")]
+pub(crate) use text::{is_comment, name_cell};
 pub(crate) use text::{known, unpack};
-pub use write::{FlagForm, is_columns_name, names_columns, write_columns};
+pub use write::{CopyForm, FlagForm, copy_form, names_arrays, names_columns, write_columns};
 
 #[cfg(test)]
 mod tests;

@@ -9,8 +9,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use memchr::{memchr, memrchr};
 use sha2::{Digest, Sha256};
 
-use super::packing::{Packing, Stream, Unpackable};
+use super::facts::Facts;
+use super::packing::{Packing, Stream};
 use super::text::hex;
+use super::view::Want;
 use super::{Extent, Wanted};
 use crate::error::{Error, Result as Outcome};
 use crate::memory::{Full, Share};
@@ -47,6 +49,7 @@ pub(crate) enum Supply<'a> {
 pub(crate) struct Unpacked {
     packing: &'static Packing,
     text: Stream<'static>,
+    facts: Option<Arc<Facts>>,
     file: Arc<Mutex<Hashed>>,
 }
 
@@ -93,11 +96,12 @@ impl Read for Supply<'_> {
 }
 
 impl Supply<'static> {
-    /// The text of the file at `path`, of so much of it, unpacked if it is packed, and about how many bytes it has.
+    /// The text of the file at `path`, of so much of it, unpacked if it is packed, and about how many bytes it has; of
+    /// several tables that it stores the wanted one.
     ///
     /// # Errors
     /// [`Error::Io`] when it cannot be opened, [`Error::Input`] when it cannot be unpacked.
-    pub(crate) fn open(path: &Path, extent: Extent) -> Outcome<(Self, u64)> {
+    pub(crate) fn open(path: &Path, extent: Extent, want: Want) -> Outcome<(Self, u64)> {
         let unreadable = || Error::io("read", path);
         let mut file = File::open(path).map_err(unreadable())?;
         let length = file.metadata().map_err(unreadable())?.len().min(extent.most());
@@ -106,10 +110,11 @@ impl Supply<'static> {
         let Some(packing) = packing else { return Ok((Self::Plain(hashed), length)) };
         let file = Arc::new(Mutex::new(hashed));
         let directory = File::open(path).map_err(unreadable())?;
-        let unpackable = |e: Unpackable| Error::input(path, e.what, e.help);
-        let text = packing.unpack(Box::new(directory), Box::new(Shared(Arc::clone(&file)))).map_err(unpackable)?;
+        let opened = packing.unpack(Box::new(directory), Box::new(Shared(Arc::clone(&file))), want);
+        let opened = opened.map_err(|e| e.of_file(path))?;
         // Decimal numbers pack to a third or a quarter; what is wrong with the guess costs nothing but address space.
-        Ok((Self::Packed(Unpacked { packing, text, file }), length.saturating_mul(4)))
+        let unpacked = Unpacked { packing, text: opened.text, facts: opened.facts, file };
+        Ok((Self::Packed(unpacked), length.saturating_mul(4)))
     }
 }
 
@@ -118,6 +123,14 @@ impl Supply<'_> {
     pub(crate) fn packing(&self) -> Option<&'static Packing> {
         match self {
             Self::Packed(file) => Some(file.packing),
+            Self::Bytes(_) | Self::Plain(_) => None,
+        }
+    }
+
+    /// What the file says of its columns, where it stores such.
+    pub(crate) fn facts(&self) -> Option<Arc<Facts>> {
+        match self {
+            Self::Packed(file) => file.facts.clone(),
             Self::Bytes(_) | Self::Plain(_) => None,
         }
     }
@@ -327,7 +340,7 @@ mod tests {
         let packed = packer.finish().unwrap();
         for (bytes, packing) in [(&b"1,2\n3,4\n"[..], None), (&packed, Some("gzip"))] {
             std::fs::write(&path, bytes).unwrap();
-            let (supply, _) = Supply::open(&path, Extent::All).unwrap();
+            let (supply, _) = Supply::open(&path, Extent::All, Want::default()).unwrap();
             assert_eq!(supply.packing().map(|p| p.name), packing);
             let mut feed = Feed::new(supply, Check::Utf8);
             assert_eq!(waves(&mut feed, 2).unwrap().concat(), b"1,2\n3,4\n");

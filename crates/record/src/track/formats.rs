@@ -6,6 +6,7 @@
 use encoding_rs::WINDOWS_1252;
 
 use super::columnar::with_layout;
+use super::facts::{ColumnFacts, Facts};
 use super::view::{Field, Sheet, View, Want};
 use super::{Aside, Delimiter, LoadOptions, Rules, Zero};
 use crate::error::Result;
@@ -62,6 +63,8 @@ pub struct Format {
     label: fn(&str, &str) -> Label,
     /// True where the columns of a file are those that the format has, and no others.
     closed: bool,
+    /// True where its clocks are those of UTC, or of a scale that is written like it (GPS time).
+    pub(crate) utc: bool,
     /// Makes a table of the records of the whole text, where its lines are no rows of one.
     pub(crate) sheet: Option<MakeSheet>,
 }
@@ -79,6 +82,7 @@ const PLAIN: Format = Format {
     complete: |_, _| {},
     label: |_, _| Label::default(),
     closed: false,
+    utc: false,
     sheet: None,
 };
 
@@ -206,8 +210,13 @@ impl Known {
     }
 
     /// What the user told of a file that stores columns.
-    pub(crate) fn of_columns(options: &LoadOptions) -> Self {
-        Self { options: with_layout(options), ..Self::default() }
+    pub(crate) fn of_columns(options: &LoadOptions, facts: Option<&Facts>) -> Self {
+        Self {
+            options: with_layout(options),
+            time: facts.and_then(|facts| facts.time.clone()),
+            said: facts.map_or_else(Vec::new, |facts| facts.said.clone()),
+            ..Self::default()
+        }
     }
 
     /// What the user told of a view, completed by what the view has.
@@ -302,6 +311,11 @@ impl Label {
     /// What a view knows of its column.
     pub(crate) fn of(field: &Field) -> Self {
         Self { unit: Some(field.unit.clone()), aside: field.aside }
+    }
+
+    /// What a file that stores columns says of one.
+    pub(crate) fn of_column(column: &ColumnFacts) -> Self {
+        Self { unit: column.unit.clone(), aside: column.aside }
     }
 
     fn unit(unit: &str) -> Self {

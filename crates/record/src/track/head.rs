@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::facts::Facts;
 use super::formats::{Known, Label};
 use super::number::Reading;
 use super::odd::{Oddity, odd};
@@ -76,6 +77,8 @@ pub(crate) struct Head {
     pub(crate) closed: Option<&'static Format>,
     /// What the times of the file are counted in, in nanoseconds, and from when, as far as its format tells.
     pub(crate) counted: Option<(i64, Zero)>,
+    /// True where the format of the file says that its clocks are those of UTC, or of a scale that is written like it.
+    pub(crate) utc: bool,
     /// What was recognised that a user may want to correct.
     pub(crate) said: Vec<String>,
     /// True when the first lines were enough to tell all.
@@ -234,16 +237,18 @@ impl Head {
             format: None,
             closed: None,
             counted: None,
+            utc: false,
             said: seen.said(number, first, of.layout.mark, options),
             complete: seen.complete && end.is_none() && rows.len() == SAMPLE,
         })
     }
 
     /// Takes what the format of the file tells of its columns.
-    pub(crate) fn take(&mut self, known: &Known, view: Option<&View>) {
-        let labels: Vec<Label> = match view {
-            Some(view) => view.sheet.fields.iter().map(Label::of).collect(),
-            None => self.names.iter().map(|name| known.label(name)).collect(),
+    pub(crate) fn take(&mut self, known: &Known, view: Option<&View>, facts: Option<&Facts>) {
+        let labels: Vec<Label> = match (view, facts) {
+            (Some(view), _) => view.sheet.fields.iter().map(Label::of).collect(),
+            (None, Some(facts)) => facts.columns.iter().map(Label::of_column).collect(),
+            (None, None) => self.names.iter().map(|name| known.label(name)).collect(),
         };
         self.units.iter_mut().zip(&labels).for_each(|(unit, label)| {
             if let Some(told) = &label.unit {
@@ -252,6 +257,7 @@ impl Head {
         });
         self.asides = labels.into_iter().map(|label| label.aside).collect();
         self.counted = known.counted;
+        self.utc = view.map(|view| view.format).or(known.format()).is_some_and(|format| format.utc);
         self.format = known.format();
         self.closed = known.closed(self.header_at.is_some());
         self.said.extend(known.said.iter().cloned());

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::feed::Supply;
 use super::text::{Text, decoded};
 use super::tokens::{RecordKind, kind_of, line_end_of};
+use super::view::Want;
 use super::{Extent, RowsAt, Source};
 
 /// What a line of a file is.
@@ -126,7 +127,7 @@ fn beginning(source: &Source) -> Option<Vec<u8>> {
                 return None;
             }
             // Of what is broken, the lines before the fault are shown.
-            let _ = Supply::open(path, Extent::All).ok()?.0.take(MOST).read_to_end(&mut bytes);
+            let _ = Supply::open(path, Extent::All, Want::default()).ok()?.0.take(MOST).read_to_end(&mut bytes);
         }
     }
     if bytes.len() as u64 == MOST {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::body::{Body, Numbers, Plan};
 use super::column_roles::{Roles, assign, release};
 use super::columnar;
+use super::facts::Facts;
 use super::feed::{Feed, Unfit};
 use super::formats::{self, Known};
 use super::head::{Head, open_quote};
@@ -22,7 +23,7 @@ use super::tokens::inner;
 use super::unsupported::{refuse_binaries, refuse_long_form, refuse_other_formats};
 use super::view::Want;
 use super::{
-    Channel, Column, ColumnKind, Delimiter, Dialect, Encoding, Extent, Fault, Faults, LoadOptions, RowsAt, Rules,
+    Channel, Clocks, Column, ColumnKind, Delimiter, Dialect, Encoding, Extent, Fault, Faults, LoadOptions, RowsAt, Rules,
     Source, TimeAxis, TimeFormat, Track, Viewed, Wanted, notes, printable, rows,
 };
 use crate::error::{Error, Result};
@@ -49,14 +50,6 @@ pub fn load_while(source: &Source, options: &LoadOptions, wanted: Wanted<'_>) ->
 /// # Errors
 /// As [`load_while`].
 pub fn load_extent(source: &Source, options: &LoadOptions, extent: Extent, wanted: Wanted<'_>) -> Result<Track> {
-    let mut track = loaded(source, options, extent, wanted)?;
-    if track.dialect.packing.is_some_and(Packing::is_columnar) {
-        columnar::settle(&mut track)?;
-    }
-    Ok(track)
-}
-
-fn loaded(source: &Source, options: &LoadOptions, extent: Extent, wanted: Wanted<'_>) -> Result<Track> {
     let extent = extent.settled(source);
     let still = || if wanted.still() { Ok(()) } else { Err(Error::Stopped) };
     if let Some(path) = source.file()
@@ -70,11 +63,12 @@ fn loaded(source: &Source, options: &LoadOptions, extent: Extent, wanted: Wanted
     let stored = stored(source, extent)?;
     still()?;
     refuse_binaries(&stored, &path)?;
-    let mut text = Text::of(&stored, &path, options.encoding)?;
+    let want = Want { table: options.table };
+    let mut text = Text::of_table(&stored, &path, options.encoding, want)?;
     if !text.is_columnar()
         && let Some(format) = formats::viewed(text.body(), options)
     {
-        text = text.viewed(format, Want { table: options.table }, &path)?;
+        text = text.viewed(format, want, &path)?;
     }
     still()?;
     let understood = Understood::of(&text, options, &path)?;
@@ -110,6 +104,7 @@ pub(super) struct Understood {
     roles: Roles,
     encoding: Encoding,
     packing: Option<&'static Packing>,
+    facts: Option<Arc<Facts>>,
     path: PathBuf,
     rules: Rules,
     /// What the user told, completed by the format.
@@ -118,6 +113,8 @@ pub(super) struct Understood {
     viewed: Option<Viewed>,
     /// The lines of the text where the first rows of that table begin.
     made_of: Vec<u64>,
+    /// Which of the tables that the file stores it is, where the user says so.
+    stored_table: Option<usize>,
 }
 
 /// So many lines of rows are kept to be shown.
@@ -145,21 +142,23 @@ impl Understood {
     /// From the text, or from so much of it that [`Head::needs_no_more`].
     pub(super) fn of(text: &Text<'_>, options: &LoadOptions, path: &Path) -> Result<Self> {
         let view = text.view.as_deref();
-        if text.is_columnar() {
-            columnar::refuse_layout(options, path)?;
+        let columnar = text.packing.filter(|packing| packing.is_columnar());
+        if let Some(packing) = columnar {
+            columnar::refuse_layout(options, packing, path)?;
         } else if view.is_none() {
             refuse_other_formats(text.body(), path)?;
         }
         let mut known = match view {
-            _ if text.is_columnar() => Known::of_columns(options),
+            _ if text.is_columnar() => Known::of_columns(options, text.facts.as_deref()),
             Some(view) => Known::of_view(view, options),
             None => Known::of(text.body(), options),
         };
         let mut head = Head::of(text, &known.options, path)?;
         known.settle_time(&head.names);
-        head.take(&known, view);
+        head.take(&known, view, text.facts.as_deref());
         let viewed = view.map(|view| Viewed { format: view.format, table: options.table });
         let made_of = view.map(|v| v.lines.iter().copied().take(LINES_KEPT).collect()).unwrap_or_default();
+        let table = options.table;
         let completed = known.options;
         let options = &completed;
         refuse_torn_decimals(&head)?;
@@ -169,10 +168,12 @@ impl Understood {
         let by_sample = options.time.as_deref() == Some("sample") && !head.names.iter().any(|n| n == "sample");
         let timing = if by_sample { None } else { choose(&head, options, path)? };
         let roles = assign(&head, timing.as_ref(), options)?;
-        let (encoding, packing) = (text.encoding, text.packing);
+        let (encoding, packing, facts) = (text.encoding, text.packing, text.facts.clone());
+        let stored_table = columnar.and(table);
         let rules = options.rules;
         let path = path.to_path_buf();
-        Ok(Self { head, timing, roles, encoding, packing, path, rules, options: completed, viewed, made_of })
+        let options = completed;
+        Ok(Self { head, timing, roles, encoding, packing, facts, path, rules, options, viewed, made_of, stored_table })
     }
 
     /// Parses the rows of a feed that begins with the first of them and has about so many bytes; gives the feed of
@@ -269,6 +270,9 @@ impl Understood {
         if self.rules == Rules::Second {
             lost_times(&track, path)?;
         }
+        if let Some(facts) = &self.facts {
+            facts.settle(&mut track);
+        }
         Ok(track)
     }
 
@@ -361,6 +365,7 @@ impl Understood {
             format: self.viewed.as_ref().map(|viewed| viewed.format).or(head.format),
             closed: head.closed,
             made_of: self.made_of.clone(),
+            table: self.stored_table,
         };
         Dialect {
             rows,
@@ -557,6 +562,7 @@ fn time_axis(head: &Head, timing: Option<&Timing>, rows: usize) -> TimeAxis {
             date_column: timing.date_column,
             part_columns: timing.columns.clone(),
             zone: timing.zone.clone(),
+            clocks: timing.clocks,
             newest_first: false,
             format: timing.format.clone(),
             origin_ns: 0,
@@ -568,6 +574,7 @@ fn time_axis(head: &Head, timing: Option<&Timing>, rows: usize) -> TimeAxis {
             date_column: None,
             part_columns: Vec::new(),
             zone: None,
+            clocks: Clocks::Stated,
             newest_first: false,
             format: TimeFormat::SampleNumber,
             origin_ns: 0,

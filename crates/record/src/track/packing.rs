@@ -3,7 +3,16 @@
 
 use std::fmt;
 use std::io::{self, BufReader, Read, Seek, Write};
+use std::path::Path;
+use std::sync::Arc;
 
+use super::facts::Facts;
+use super::view::Want;
+use crate::error::Error;
+use crate::memory::Full;
+
+#[cfg(feature = "hdf5")]
+mod arrays;
 mod bzip2;
 mod gzip;
 mod parquet;
@@ -24,21 +33,59 @@ pub struct Packing {
     /// True when packed files one after the other are one packed file, to which can be appended.
     pub(crate) joins: bool,
     unpack: Unpack,
-    /// None where the packed file is no text packed, but a table stored by columns.
-    pack: Option<Pack>,
+    form: Form,
+}
+
+/// What a packed file is.
+enum Form {
+    /// Text, and what packs it.
+    Text(Pack),
+    /// A table stored by columns, whose copy is stored so, too.
+    Columns,
+    /// Tables of arrays, which are read and not written.
+    #[cfg(feature = "hdf5")]
+    Arrays,
 }
 
 /// All of them.
-pub static PACKINGS: [Packing; 6] =
-    [gzip::PACKING, zstd::PACKING, xz::PACKING, bzip2::PACKING, zip::PACKING, parquet::PACKING];
+pub static PACKINGS: &[Packing] = &[
+    gzip::PACKING,
+    zstd::PACKING,
+    xz::PACKING,
+    bzip2::PACKING,
+    zip::PACKING,
+    parquet::PACKING,
+    #[cfg(feature = "hdf5")]
+    arrays::HDF5,
+    #[cfg(feature = "hdf5")]
+    arrays::MATLAB,
+    #[cfg(feature = "hdf5")]
+    arrays::NETCDF,
+];
+
+#[cfg(feature = "hdf5")]
+pub(super) use arrays::{HDF5, MATLAB, NETCDF};
 
 /// A stream of text from a packed one. What stands in the packed file can be looked up in the first.
-type Unpack = for<'a> fn(Box<dyn Look + 'a>, Stream<'a>) -> Result<Stream<'a>, Unpackable>;
+type Unpack = for<'a> fn(Box<dyn Look + 'a>, Stream<'a>, Want) -> Result<Opened<'a>, Unpackable>;
 /// What packs all that is written to it, for a file of this name.
 type Pack = for<'a> fn(&'a mut dyn Write, &str) -> io::Result<Box<dyn Packer + 'a>>;
 
 /// Bytes one after the other.
 pub(crate) type Stream<'a> = Box<dyn Read + Send + 'a>;
+
+/// The text of a packed file.
+pub(crate) struct Opened<'a> {
+    pub(crate) text: Stream<'a>,
+    /// What the file says of its columns, where it stores such.
+    pub(crate) facts: Option<Arc<Facts>>,
+}
+
+impl<'a> Opened<'a> {
+    fn text(text: impl Read + Send + 'a) -> Self {
+        Self { text: Box::new(text), facts: None }
+    }
+}
 
 /// A file that can be looked into at any place.
 pub(crate) trait Look: Read + Seek + Send {}
@@ -55,6 +102,28 @@ pub(crate) trait Packer: Write {
 pub(crate) struct Unpackable {
     pub(crate) what: String,
     pub(crate) help: String,
+    /// The memory that is there, where it needs more.
+    pub(crate) full: Option<Full>,
+}
+
+impl Unpackable {
+    pub(crate) fn new(what: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { what: what.into(), help: help.into(), full: None }
+    }
+
+    /// A file that needs more memory than there is.
+    #[cfg(feature = "hdf5")]
+    pub(crate) fn full(full: Full) -> Self {
+        Self { full: Some(full), ..Self::new("", "") }
+    }
+
+    /// The error about the file at `path`.
+    pub(crate) fn of_file(self, path: &Path) -> Error {
+        match self.full {
+            Some(full) => Error::memory(path)(full),
+            None => Error::input(path, self.what, self.help),
+        }
+    }
 }
 
 impl Packing {
@@ -73,32 +142,52 @@ impl Packing {
         Ok(Self::of(&start))
     }
 
-    /// The text in `packed`, which is the stream of all bytes of `file`.
-    pub(crate) fn unpack<'a>(&self, file: Box<dyn Look + 'a>, packed: Stream<'a>) -> Result<Stream<'a>, Unpackable> {
-        (self.unpack)(file, packed)
+    /// The text in `packed`, which is the stream of all bytes of `file`; of several tables the wanted one.
+    pub(crate) fn unpack<'a>(
+        &self,
+        file: Box<dyn Look + 'a>,
+        packed: Stream<'a>,
+        want: Want,
+    ) -> Result<Opened<'a>, Unpackable> {
+        (self.unpack)(file, packed, want)
     }
 
     /// What packs all that is written to it into `out`, under this name where that is kept.
     pub(crate) fn pack<'a>(&self, out: &'a mut dyn Write, name: &str) -> io::Result<Box<dyn Packer + 'a>> {
-        let pack = self.pack.ok_or_else(|| io::Error::other(format!("no text is packed as {}", self.name)))?;
-        pack(out, name)
+        match self.form {
+            Form::Text(pack) => pack(out, name),
+            _ => Err(io::Error::other(format!("no text is packed as {}", self.name))),
+        }
     }
 
-    /// True for files that store a table by columns: how its text is laid out is no question.
+    /// True for files that store columns: how their text is laid out is no question.
     #[must_use]
     pub fn is_columnar(&self) -> bool {
-        self.pack.is_none()
+        !matches!(self.form, Form::Text(_))
+    }
+
+    /// True for files that store columns and are written, too.
+    #[must_use]
+    pub fn is_written(&self) -> bool {
+        matches!(self.form, Form::Text(_) | Form::Columns)
+    }
+
+    /// True for files that store several tables.
+    pub(crate) fn holds_tables(&self) -> bool {
+        !self.is_written()
+    }
+
+    /// Such a file, with its article.
+    pub(crate) fn a_file(&self) -> String {
+        format!("{} {} file", if self.name.starts_with('H') { "an" } else { "a" }, self.name)
     }
 
     /// What is wrong with a stream that gives `error`.
     pub(crate) fn broken(&self, error: &io::Error) -> Unpackable {
         if self.is_columnar() {
-            let help =
-                "copy or fetch the file again; if columns of it are encrypted, write it again without encryption";
-            return Unpackable { what: error.to_string(), help: help.into() };
+            return Unpackable::new(error.to_string(), "copy or fetch the file again");
         }
-        let what = format!("the {} stream is broken: {error}", self.name);
-        Unpackable { what, help: "copy or fetch the file again".into() }
+        Unpackable::new(format!("the {} stream is broken: {error}", self.name), "copy or fetch the file again")
     }
 
     /// A name without this ending, where it has it.

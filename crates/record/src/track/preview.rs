@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::columnar::{refuse_layout, with_layout};
 use super::feed::Supply;
-use super::packing::Packing;
+use super::view::Want;
 use super::{Extent, LoadOptions, Source, Track, Wanted, for_each_row, load_while};
 use crate::error::{Error, Result};
 
@@ -39,15 +39,17 @@ impl Preview {
         if !about.is_file() {
             return Err(Error::input(path, "this is no ordinary file", "name a file with a record"));
         }
-        let (supply, _) = Supply::open(path, Extent::All)?;
-        let columnar = supply.packing().is_some_and(Packing::is_columnar);
+        let (supply, _) = Supply::open(path, Extent::All, Want { table: options.table })?;
+        let columnar = supply.packing().filter(|packing| packing.is_columnar());
+        let facts = supply.facts();
         let (mut bytes, share) = beginning(supply, about.len(), most).map_err(Error::io("read", path))?;
         if share < 1.0 {
             whole_lines(&mut bytes);
         }
-        let laid_out = if columnar {
-            refuse_layout(options, path)?;
-            &with_layout(options)
+        let laid_out = if let Some(packing) = columnar {
+            refuse_layout(options, packing, path)?;
+            let laid_out = with_layout(options);
+            &facts.map_or(laid_out.clone(), |facts| facts.with_time(laid_out))
         } else {
             options
         };

@@ -318,9 +318,10 @@ impl<'a> Editor<'a> {
         if self.beside.is_some() {
             width = width.min(self.track.columns.len());
         }
+        let local = new.seconds + time.row_offset(|column| self.cell(record, spans, column));
         let text = |column: usize| {
             if let Some(place) = time.part_columns.iter().position(|c| *c == column) {
-                return time.write_part(new.seconds, place, &self.cell(record, spans, column));
+                return time.write_part(local, place, &self.cell(record, spans, column));
             }
             if time.column == Some(column) {
                 return time.write_like(new.seconds, &self.time_sample);

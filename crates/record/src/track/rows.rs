@@ -51,7 +51,8 @@ pub(crate) fn unchanged(track: &Track) -> Result<Stored<'_>> {
 /// As [`Text::of`].
 pub(crate) fn text_of<'a>(track: &Track, stored: &'a [u8]) -> Result<Text<'a>> {
     let path = path_of(&track.source);
-    let text = Text::of(stored, &path, Some(track.dialect.encoding))?;
+    let want = Want { table: track.dialect.rows.table };
+    let text = Text::of_table(stored, &path, Some(track.dialect.encoding), want)?;
     match &track.dialect.view {
         Some(viewed) => text.viewed(viewed.format, Want { table: viewed.table }, &path),
         None => Ok(text),

@@ -93,6 +93,7 @@ mod tests {
             date_column: None,
             part_columns: Vec::new(),
             zone: None,
+            clocks: super::super::Clocks::Stated,
             newest_first: false,
             format: TimeFormat::SampleNumber,
             origin_ns: 0,

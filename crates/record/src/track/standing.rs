@@ -10,6 +10,7 @@ use super::packing::Stream;
 use super::rows::Splitter;
 use super::text::hex;
 use super::tokens::{RecordKind, Records, is_empty};
+use super::view::Want;
 use super::{Encoding, Source, Track, Worded};
 use crate::error::{Error, Result};
 
@@ -156,7 +157,10 @@ fn rows_after(path: &Path, track: &Track) -> io::Result<usize> {
     }
     file.seek(SeekFrom::Start(track.bytes))?;
     let mut tail: Stream<'_> = match track.dialect.packing {
-        Some(packing) => packing.unpack(Box::new(io::empty()), Box::new(file)).map_err(|e| io::Error::other(e.what))?,
+        Some(packing) => {
+            let opened = packing.unpack(Box::new(io::empty()), Box::new(file), Want::default());
+            opened.map_err(|e| io::Error::other(e.what))?.text
+        }
         None => Box::new(file),
     };
     let (mut rows, mut open, mut first) = (0, Vec::new(), before != [b'\n'] && before != [b'\r'] && before != [0]);

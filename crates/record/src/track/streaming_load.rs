@@ -9,6 +9,7 @@ use super::formats::viewed;
 use super::load::Understood;
 use super::parallel_parse::Failure;
 use super::text::{Text, path_of};
+use super::view::Want;
 use super::{Encoding, Extent, LoadOptions, Source, Track, Wanted};
 use crate::error::Error;
 
@@ -57,8 +58,9 @@ fn checked(
     wanted: Wanted<'_>,
 ) -> Result<Track, Failure> {
     let (understood, [mark, before]) = understood((path, extent), check, options)?;
+    let want = Want { table: options.table };
     let rows = || {
-        let (supply, bytes) = Supply::open(path, extent).map_err(|_| Unfit::Unreadable)?;
+        let (supply, bytes) = Supply::open(path, extent, want).map_err(|_| Unfit::Unreadable)?;
         let mut feed = Feed::new(supply, check).while_wanted(wanted);
         feed.peek(mark + before)?;
         feed.skip(mark + before);
@@ -67,7 +69,7 @@ fn checked(
     let (parsed, feed) = understood.parse(rows)?;
     let stored = feed.into_supply().sha256().map_err(|_| UNFIT)?;
     let again = || {
-        let (supply, _) = Supply::open(path, extent)?;
+        let (supply, _) = Supply::open(path, extent, want)?;
         let mut feed = Feed::new(supply, check).while_wanted(wanted);
         let unreadable = |_| Error::input(path, "the file changed while it was loaded", "load it again");
         feed.peek(mark).map_err(unreadable)?;
@@ -83,8 +85,8 @@ fn understood(
     check: Check,
     options: &LoadOptions,
 ) -> Result<(Understood, [usize; 2]), Failure> {
-    let (supply, _) = Supply::open(path, extent).map_err(|_| UNFIT)?;
-    let packing = supply.packing();
+    let (supply, _) = Supply::open(path, extent, Want { table: options.table }).map_err(|_| UNFIT)?;
+    let (packing, facts) = (supply.packing(), supply.facts());
     let mut feed = Feed::new(supply, check);
     for size in HEADS {
         let part = feed.peek(size).map_err(Failure::Unfit)?;
@@ -97,7 +99,7 @@ fn understood(
         let Some(end) = memrchr(b'\n', part) else { continue };
         let lines = &part[..=end];
         check.of(lines).map_err(Failure::Unfit)?;
-        let text = Text::part(lines, encoding, packing);
+        let text = Text::part(lines, encoding, packing, facts.clone());
         // A table that is made of the records needs all of them.
         if !text.is_columnar() && viewed(text.body(), options).is_some() {
             return Err(UNFIT);

@@ -5,12 +5,14 @@ use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use encoding_rs::{UTF_16BE, UTF_16LE, WINDOWS_1252};
 use memchr::{memchr, memchr_iter};
 use sha2::{Digest, Sha256};
 
-use super::packing::{Packing, Unpackable};
+use super::facts::Facts;
+use super::packing::Packing;
 use super::unsupported::refuse_binaries;
 use super::view::{View, Want};
 use super::{Encoding, Extent, Format, Source, Wanted};
@@ -34,6 +36,8 @@ pub(crate) struct Text<'a> {
     pub(crate) packing: Option<&'static Packing>,
     /// The table that the format of the text makes of it.
     pub(crate) view: Option<Box<View>>,
+    /// What the file says of its columns, where it stores such.
+    pub(crate) facts: Option<Arc<Facts>>,
 }
 
 /// The name of a source in messages.
@@ -114,9 +118,14 @@ pub fn hex(bytes: &[u8]) -> String {
 
 impl<'a> Text<'a> {
     /// The first part of a text, in the encoding that the whole was taken for.
-    pub(crate) fn part(bytes: &'a [u8], encoding: Encoding, packing: Option<&'static Packing>) -> Self {
+    pub(crate) fn part(
+        bytes: &'a [u8],
+        encoding: Encoding,
+        packing: Option<&'static Packing>,
+        facts: Option<Arc<Facts>>,
+    ) -> Self {
         let start = if encoding == (Encoding::Utf8 { bom: true }) { 3 } else { 0 };
-        Self { bytes: Cow::Borrowed(bytes), start, share: Share::default(), encoding, packing, view: None }
+        Self { bytes: Cow::Borrowed(bytes), start, share: Share::default(), encoding, packing, view: None, facts }
     }
 
     /// The text in `stored`, in the `wanted` encoding or in the one its bytes show.
@@ -124,7 +133,15 @@ impl<'a> Text<'a> {
     /// # Errors
     /// [`Error::Input`] for a file that cannot be unpacked, for bytes that are not in the wanted encoding, and for NUL bytes.
     pub(crate) fn of(stored: &'a [u8], path: &Path, wanted: Option<Encoding>) -> Result<Self> {
-        let (bytes, packing, mut share) = unpacked(stored, path)?;
+        Self::of_table(stored, path, wanted, Want::default())
+    }
+
+    /// The same, of several tables that `stored` holds the one that `want` says.
+    ///
+    /// # Errors
+    /// As [`Text::of`].
+    pub(crate) fn of_table(stored: &'a [u8], path: &Path, wanted: Option<Encoding>, want: Want) -> Result<Self> {
+        let Unpacked { bytes, packing, facts, mut share } = unpacked(stored, path, want)?;
         if let [0xff, 0xfe, ..] | [0xfe, 0xff, ..] = bytes.as_ref() {
             // Three bytes for two at most.
             share.add(bytes.len() as u64 / 2 * 3).map_err(Error::memory(path))?;
@@ -147,7 +164,7 @@ impl<'a> Text<'a> {
             Encoding::Utf8 { bom } => eight_bit(&bytes[start..], bom, wanted, path)?,
             other => other,
         };
-        Ok(Self { bytes, start, share, encoding, packing, view: None })
+        Ok(Self { bytes, start, share, encoding, packing, view: None, facts })
     }
 
     /// True for the text of a file that stores columns.
@@ -208,19 +225,27 @@ fn utf16(big_endian: bool) -> Encoding {
 }
 
 /// The text in `stored`, unpacked if it is packed.
-type Opened<'a> = (Cow<'a, [u8]>, Option<&'static Packing>, Share);
+struct Unpacked<'a> {
+    bytes: Cow<'a, [u8]>,
+    packing: Option<&'static Packing>,
+    facts: Option<Arc<Facts>>,
+    share: Share,
+}
 
-fn unpacked<'a>(stored: &'a [u8], path: &Path) -> Result<Opened<'a>> {
+fn unpacked<'a>(stored: &'a [u8], path: &Path, want: Want) -> Result<Unpacked<'a>> {
     let mut share = Share::default();
-    let Some(packing) = Packing::of(stored) else { return Ok((Cow::Borrowed(stored), None, share)) };
-    let unpackable = |e: Unpackable| Error::input(path, e.what, e.help);
+    let Some(packing) = Packing::of(stored) else {
+        return Ok(Unpacked { bytes: Cow::Borrowed(stored), packing: None, facts: None, share });
+    };
     let mut bytes = Vec::new();
-    let mut packed = packing.unpack(Box::new(Cursor::new(stored)), Box::new(stored)).map_err(unpackable)?;
+    let opened = packing.unpack(Box::new(Cursor::new(stored)), Box::new(stored), want);
+    let opened = opened.map_err(|e| e.of_file(path))?;
+    let (mut packed, facts) = (opened.text, opened.facts);
     loop {
         share.add(PIECE).map_err(Error::memory(path))?;
         let read = (&mut packed).take(PIECE).read_to_end(&mut bytes).map_err(|e| match e.kind() {
             io::ErrorKind::OutOfMemory => Error::memory(path)(Full { limit: limit() }),
-            _ => unpackable(packing.broken(&e)),
+            _ => packing.broken(&e).of_file(path),
         })?;
         if bytes.len() as u64 > MOST_UNPACKED {
             let help = if packing.is_columnar() {
@@ -235,14 +260,14 @@ fn unpacked<'a>(stored: &'a [u8], path: &Path) -> Result<Opened<'a>> {
         }
     }
     if packing.is_columnar() {
-        return Ok((Cow::Owned(bytes), Some(packing), share));
+        return Ok(Unpacked { bytes: Cow::Owned(bytes), packing: Some(packing), facts, share });
     }
     if let Some(inner) = Packing::of(&bytes) {
         let what = format!("it is packed twice: {} in {}", inner.name, packing.name);
         return Err(Error::input(path, what, format!("unpack it once: {} FILE", packing.tool)));
     }
     refuse_binaries(&bytes, path)?;
-    Ok((Cow::Owned(bytes), Some(packing), share))
+    Ok(Unpacked { bytes: Cow::Owned(bytes), packing: Some(packing), facts, share })
 }
 
 /// So much is unpacked at a time.

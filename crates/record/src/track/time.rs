@@ -13,7 +13,7 @@ pub(crate) use form::{Numbers, digits_are_dates, number_form, order_of};
 pub use free::DateOrder;
 pub(crate) use free::fields;
 pub use parts::Part;
-pub(crate) use parts::{clock as part_clock, moment as parts_moment, written as part_written};
+pub(crate) use parts::{clock as part_clock, moment as parts_moment, offset_in, written as part_written};
 pub use pattern::Pattern;
 pub(crate) use pieces::{Field, Pieces};
 pub use zone::Zone;

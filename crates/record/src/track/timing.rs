@@ -7,13 +7,14 @@ use super::calendar::SECOND;
 use super::head::Head;
 use super::time::{DateOrder, Part, Pieces, Zone, fields, parts_moment};
 use super::timestamp::{self, Count};
-use super::{LoadOptions, Rules, TimeFormat, printable};
+use super::{Clocks, LoadOptions, Rules, TimeFormat, printable};
 use crate::error::{Error, Result};
 
 mod candidates;
 mod columns;
 mod earlier;
 mod form;
+mod zones;
 
 pub(crate) use candidates::Candidates;
 pub(crate) use form::Form;
@@ -35,6 +36,8 @@ pub(crate) struct Timing {
     pub(crate) format: TimeFormat,
     /// The zone of clocks that write none.
     pub(crate) zone: Option<Zone>,
+    /// Whether anything tells the zone.
+    pub(crate) clocks: Clocks,
     /// What was assumed, in a line each.
     pub(crate) said: Vec<String>,
     /// True for seconds of the week alone.
@@ -62,6 +65,7 @@ impl Timing {
             columns: Vec::new(),
             format,
             zone: None,
+            clocks: Clocks::Stated,
             said: Vec::new(),
             of_week: false,
             of_hour: false,
@@ -156,7 +160,7 @@ impl Timing {
             TimeFormat::Parts(parts) => {
                 let columns = self.columns.as_slice();
                 let moment = parts_moment(parts, |i| columns.get(i).map_or(&[][..], |c| cell(*c)), decimal_comma)?;
-                let apart = parts.iter().any(|p| matches!(p, Part::Seconds | Part::GpsWeek))
+                let apart = parts.iter().any(|p| matches!(p, Part::Seconds | Part::GpsWeek | Part::Zone))
                     || !parts.iter().any(|p| p.dates());
                 self.in_zone(moment, apart)
             }
@@ -238,10 +242,11 @@ pub(crate) fn nanoseconds(ns: f64) -> Option<Moment> {
 /// [`Error::Usage`] for a name that is not there, and for a unit of times that are no numbers; [`Error::Input`] where
 /// the named column holds no times, and where day and month cannot be told apart.
 pub(crate) fn choose(head: &Head, options: &LoadOptions, path: &Path) -> Result<Option<Timing>> {
-    match options.rules {
+    let chosen = match options.rules {
         Rules::First => earlier::choose(head, options, path),
         Rules::Second => Candidates::of(head, options).choose(path),
-    }
+    }?;
+    Ok(chosen.map(|timing| Timing { clocks: zones::clocks(head, &timing), ..timing }))
 }
 
 /// A unit was told that nothing has.

@@ -48,112 +48,149 @@ struct Binary {
     begins: &'static [u8],
     name: &'static str,
     help: &'static str,
+    /// True where this build reads it.
+    read: bool,
 }
 
+/// True in a build that reads files of arrays.
+const ARRAYS: bool = cfg!(feature = "hdf5");
+const NETCDF_HELP: &str = "a build with --features hdf5 reads it; or write its variables as text: ncdump -v NAME FILE, or in Python: xarray.open_dataset('FILE').to_dataframe().to_csv('OUT.csv')";
+
 /// What analysts have besides text.
-const BINARIES: [Binary; 18] = [
+const BINARIES: [Binary; 20] = [
     Binary {
         at: 0,
         begins: b"\xd0\xcf\x11\xe0",
         name: "a spreadsheet of old Excel (xls)",
         help: "export the sheet as CSV: soffice --convert-to csv FILE",
+        read: false,
     },
     Binary {
         at: 0,
         begins: b"ARROW1",
         name: "an Arrow (Feather) file",
         help: "write it as CSV, in Python: pandas.read_feather('FILE').to_csv('OUT.csv')",
+        read: false,
     },
     Binary {
         at: 0,
         begins: b"\x89HDF\r\n\x1a\n",
-        name: "an HDF5 file (NetCDF-4 and MAT 7.3 are such files, too)",
-        help: "write the variables as CSV: h5dump -d /NAME FILE, or ncdump -v NAME FILE",
+        name: "an HDF5 file (NetCDF-4 is such a file, too)",
+        help: "a build with --features hdf5 reads it; or write the variables as CSV: h5dump -d /NAME FILE, or ncdump -v NAME FILE",
+        read: ARRAYS,
     },
     Binary {
         at: 0,
         begins: b"CDF\x01",
         name: "a NetCDF file",
-        help: "write its variables as text: ncdump -v NAME FILE, or in Python: xarray.open_dataset('FILE').to_dataframe().to_csv('OUT.csv')",
+        help: NETCDF_HELP,
+        read: ARRAYS,
     },
     Binary {
         at: 0,
         begins: b"CDF\x02",
-        name: "a NetCDF file",
-        help: "write its variables as text: ncdump -v NAME FILE, or in Python: xarray.open_dataset('FILE').to_dataframe().to_csv('OUT.csv')",
+        name: "a NetCDF file (offsets of 64 bits)",
+        help: NETCDF_HELP,
+        read: ARRAYS,
+    },
+    Binary {
+        at: 0,
+        begins: b"CDF\x05",
+        name: "a NetCDF file (sizes of 64 bits)",
+        help: NETCDF_HELP,
+        read: ARRAYS,
+    },
+    Binary {
+        at: 0,
+        begins: b"MATLAB 7.3 MAT",
+        name: "a MAT file (version 7.3)",
+        help: "a build with --features hdf5 reads it; or write the variable as CSV, in Matlab: writematrix(x, 'OUT.csv'); in Python: h5py.File('FILE')",
+        read: ARRAYS,
     },
     Binary {
         at: 0,
         begins: b"MATLAB 5.0 MAT-file",
         name: "a MAT file (version 5)",
         help: "write the variable as CSV, in Matlab: writematrix(x, 'OUT.csv'); in Python: scipy.io.loadmat",
+        read: false,
     },
     Binary {
         at: 0,
         begins: b"TDSm",
         name: "a TDMS file of LabVIEW",
         help: "write it as CSV, in Python: nptdms.TdmsFile('FILE').as_dataframe().to_csv('OUT.csv')",
+        read: false,
     },
     Binary {
         at: 0,
         begins: b"ULog\x01\x12\x35",
         name: "a flight log of PX4 (ULog)",
         help: "write it as CSV files: ulog2csv FILE (pip install pyulog)",
+        read: false,
     },
     Binary {
         at: 0,
         begins: b"\x89MCAP0\r\n",
         name: "an MCAP recording",
         help: "write a topic as CSV with the tools of its makers: mcap cat --topics TOPIC --json FILE",
+        read: false,
     },
     Binary {
         at: 0,
         begins: b"#ROSBAG V",
         name: "a ROS bag",
         help: "write a topic as CSV: rostopic echo -b FILE -p /TOPIC > OUT.csv",
+        read: false,
     },
     Binary {
         at: 0,
         begins: b"SQLite format 3\0",
         name: "an SQLite database (ROS 2 bags are such files, too)",
         help: "write a table as CSV: sqlite3 -header -csv FILE 'select * from TABLE' > OUT.csv",
+        read: false,
     },
     Binary {
         at: 0,
         begins: b"\xa3\x95\x80",
         name: "a binary flight log of ArduPilot",
         help: "write it as text: mavlogdump.py --types GPS --format csv FILE > OUT.csv (pip install pymavlink)",
+        read: false,
     },
     Binary {
         at: 0,
         begins: b"MDF     ",
         name: "an MDF file of measurements (mf4)",
         help: "write it as CSV, in Python: asammdf.MDF('FILE').export('csv')",
+        read: false,
     },
     Binary {
         at: 0,
         begins: b"\xb5\x62",
         name: "messages of a u-blox receiver (UBX)",
         help: "convert them first: convbin or pyubx2 (gnssdump FILE)",
+        read: false,
     },
     Binary {
         at: 257,
         begins: b"ustar",
         name: "a tar archive",
         help: "unpack it (tar -xf FILE) and name one of the files in it",
+        read: false,
     },
-    Binary { at: 0, begins: b"7z\xbc\xaf\x27\x1c", name: "a 7z archive", help: "unpack it: 7z x FILE" },
+    Binary { at: 0, begins: b"7z\xbc\xaf\x27\x1c", name: "a 7z archive", help: "unpack it: 7z x FILE", read: false },
     Binary {
         at: 0,
         begins: b"%PDF-",
         name: "a PDF document",
         help: "export the record as CSV from where it was printed",
+        read: false,
     },
     Binary {
         at: 8,
         begins: b".FIT",
         name: "a FIT file of a sports watch",
         help: "convert it: gpsbabel -i garmin_fit -f FILE -o unicsv -F OUT.csv",
+        read: false,
     },
 ];
 
@@ -183,7 +220,7 @@ fn is_asterix(bytes: &[u8]) -> bool {
 /// # Errors
 /// [`Error::Input`] naming what it is and what converts it.
 pub(crate) fn refuse_binaries(stored: &[u8], path: &Path) -> Result<()> {
-    let found = BINARIES.iter().find(|b| stored.get(b.at..).is_some_and(|s| s.starts_with(b.begins)));
+    let found = BINARIES.iter().filter(|b| !b.read).find(|b| stored.get(b.at..).is_some_and(|s| s.starts_with(b.begins)));
     if let Some(binary) = found {
         return Err(Error::input(path, format!("{}, not a table of text", binary.name), binary.help));
     }
@@ -234,7 +271,7 @@ mod tests {
 
     #[test]
     fn files_that_are_no_text_are_named_with_what_converts_them() {
-        for binary in &BINARIES {
+        for binary in BINARIES.iter().filter(|b| !b.read) {
             let mut bytes = vec![b'x'; binary.at];
             bytes.extend_from_slice(binary.begins);
             let e = refuse_binaries(&bytes, Path::new("x")).unwrap_err().to_string();

@@ -21,27 +21,38 @@ pub(super) fn broken(e: &ParquetError) -> Unpackable {
 /// The same in words.
 pub(super) fn damaged(what: &str) -> Unpackable {
     let what = super::super::printable(what);
-    Unpackable { what: format!("the Parquet file is damaged or cut off: {what}"), help: FETCH.into() }
+    Unpackable::new(format!("the Parquet file is damaged or cut off: {what}"), FETCH)
 }
 
 /// A file that is locked.
 pub(super) fn encrypted() -> Unpackable {
-    Unpackable {
-        what: "an encrypted Parquet file".into(),
-        help: "write it again without encryption with the program that has its keys".into(),
-    }
+    Unpackable::new(
+        "an encrypted Parquet file",
+        "write it again without encryption with the program that has its keys",
+    )
+}
+
+/// A file some of whose columns are locked.
+pub(super) fn encrypted_columns(names: &[String]) -> Unpackable {
+    const TOLD: usize = 8;
+    let told: Vec<String> = names.iter().take(TOLD).map(|name| format!("`{}`", super::super::printable(name))).collect();
+    let more = if names.len() > TOLD { ", …" } else { "" };
+    Unpackable::new(
+        format!("a Parquet file with encrypted columns: {}{more}", told.join(", ")),
+        "write it again without them, or without encryption, with the program that has its keys",
+    )
 }
 
 /// A way to pack that is not read.
 pub(super) fn unread_codec(column: &str, codec: &str) -> Unpackable {
     let column = super::super::printable(column);
-    Unpackable {
-        what: format!("a Parquet file whose column `{column}` is packed by {codec}, which is not read"),
-        help: "write it again: duckdb -c \"copy (from 'FILE') to 'NEW.parquet' (codec 'zstd')\"".into(),
-    }
+    Unpackable::new(
+        format!("a Parquet file whose column `{column}` is packed by {codec}, which is not read"),
+        "write it again: duckdb -c \"copy (from 'FILE') to 'NEW.parquet' (codec 'zstd')\"",
+    )
 }
 
 /// An error about the file at `path`.
 pub(super) fn of_file(path: &Path) -> impl Fn(Unpackable) -> Error {
-    move |e| Error::input(path, e.what, e.help)
+    move |e| e.of_file(path)
 }

@@ -4,9 +4,23 @@ use parquet::basic::{ConvertedType, LogicalType, TimeUnit, Type};
 use parquet::schema::types::ColumnDescriptor;
 
 use super::value::Value;
-use text::{clock, date, decimal, float, hexadecimal, interval, nanoseconds, shown, text, timestamp, uuid, whole};
+use text::{clock, date, decimal, hexadecimal, interval, nanoseconds, shown, uuid, whole};
 
 mod text;
+
+/// A number as short as it reads back.
+#[cfg(feature = "hdf5")]
+pub(crate) use text::float;
+/// A text, in quotes where a cell needs them.
+#[cfg(feature = "hdf5")]
+pub(crate) use text::text as quoted;
+
+/// A moment in nanoseconds since 1970, which has so many decimals of a second, in ISO 8601.
+#[cfg(feature = "hdf5")]
+pub(crate) fn timestamp(ns: i128, digits: u32, out: &mut Vec<u8>) {
+    let units = ns.div_euclid(10_i128.pow(9_u32.saturating_sub(digits)));
+    text::timestamp(units, Unit { digits }, true, out);
+}
 
 /// What the values of a column mean: its logical type, or what its physical type says alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -150,22 +164,22 @@ impl Kind {
             (Self::Decimal { scale, .. }, _) => decimal(value, scale, out),
             (Self::Date, Value::I32(days)) => date((*days).into(), out),
             (Self::Clock(unit), Value::I32(_) | Value::I64(_)) => clock(whole(value), unit, out),
-            (Self::Timestamp { unit, utc }, Value::I64(_)) => timestamp(whole(value).into(), unit, utc, out),
+            (Self::Timestamp { unit, utc }, Value::I64(_)) => text::timestamp(whole(value).into(), unit, utc, out),
             // Bits that a number from 0 gives another meaning than a signed one.
             (Self::Unsigned(_), Value::I32(v)) => shown(out, v.cast_unsigned()),
             (Self::Unsigned(_), Value::I64(v)) => shown(out, v.cast_unsigned()),
             (_, Value::I32(v)) => shown(out, v),
             (_, Value::I64(v)) => shown(out, v),
-            (_, Value::F32(v)) => float(*v, out),
-            (_, Value::F64(v)) => float(*v, out),
-            (_, Value::I96(parts)) => timestamp(nanoseconds(*parts), Unit::NANOS, false, out),
+            (_, Value::F32(v)) => text::float(*v, out),
+            (_, Value::F64(v)) => text::float(*v, out),
+            (_, Value::I96(parts)) => text::timestamp(nanoseconds(*parts), Unit::NANOS, false, out),
             (Self::Half, Value::Bytes(bytes)) => match bytes.as_ref() {
-                [low, high] => float(half::f16::from_le_bytes([*low, *high]).to_f32(), out),
+                [low, high] => text::float(half::f16::from_le_bytes([*low, *high]).to_f32(), out),
                 other => hexadecimal(other, out),
             },
             (Self::Uuid, Value::Bytes(bytes)) => uuid(bytes, out),
             (Self::Interval, Value::Bytes(bytes)) => interval(bytes, out),
-            (_, Value::Bytes(bytes)) => text(bytes, out),
+            (_, Value::Bytes(bytes)) => text::text(bytes, out),
         }
     }
 }

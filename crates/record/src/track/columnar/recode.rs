@@ -47,7 +47,7 @@ pub(super) struct Recoding<'a> {
 
 /// A change that a Parquet file cannot hold, and the way out.
 pub(super) fn unwritable(what: &str) -> Unpackable {
-    Unpackable { what: what.to_owned(), help: "write the cleaned copy as text: -o NAME.csv".into() }
+    Unpackable::new(what, "write the cleaned copy as text: -o NAME.csv")
 }
 
 impl Recoding<'_> {

@@ -7,9 +7,10 @@ use parquet::file::metadata::{ColumnChunkMetaData, PageIndexPolicy, ParquetMetaD
 
 use super::super::packing::Unpackable;
 use super::access::{Chunk, FileBytes};
-use super::errors::{broken, damaged, encrypted, unread_codec};
+use super::errors::{broken, damaged, encrypted, encrypted_columns, unread_codec};
 use super::kind::Kind;
 use super::pages::guarded;
+use super::thrift;
 use parquet::file::reader::ChunkReader as _;
 
 /// A column of one value in each row.
@@ -46,6 +47,10 @@ impl Schema {
         if ends(0)? == LOCKED || ends(length.saturating_sub(MAGIC as u64))? == LOCKED {
             return Err(encrypted());
         }
+        let locked = footer(file).map_or_else(Vec::new, |bytes| thrift::encrypted_columns(&bytes));
+        if !locked.is_empty() {
+            return Err(encrypted_columns(&locked));
+        }
         let reader = ParquetMetaDataReader::new().with_page_index_policy(PageIndexPolicy::Optional);
         let metadata = guarded(|| reader.parse_and_finish(file)).map_err(|e| broken(&e))?;
         let (mut flat, mut nested) = (Vec::new(), BTreeSet::new());
@@ -70,7 +75,7 @@ impl Schema {
                 names => format!("a Parquet file of nested columns alone: {names}"),
             };
             let help = "write it with a column for each value: duckdb -c \"copy (select unnest(COLUMN) from 'FILE') to 'NEW.parquet'\"";
-            return Err(Unpackable { what, help: help.into() });
+            return Err(Unpackable::new(what, help));
         }
         for group in self.metadata.row_groups() {
             if group.num_rows() < 0 || group.num_columns() != self.metadata.file_metadata().schema_descr().num_columns()
@@ -100,6 +105,15 @@ impl Schema {
         let bytes = file.get_bytes(start, length).map_err(|e| broken(&e))?;
         Ok(Chunk { start, bytes })
     }
+}
+
+/// The bytes of the footer, where the end of the file says how many they are.
+fn footer(file: &FileBytes<'_>) -> Option<bytes::Bytes> {
+    const LENGTH: u64 = 4;
+    let end = file.length().checked_sub(LENGTH + MAGIC as u64)?;
+    let length = file.get_bytes(end, LENGTH as usize).ok()?;
+    let length = u32::from_le_bytes(length.as_ref().try_into().ok()?);
+    file.get_bytes(end.checked_sub(length.into())?, length as usize).ok()
 }
 
 /// Where a chunk begins, and how long it is.

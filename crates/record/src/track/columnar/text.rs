@@ -5,12 +5,15 @@ use std::io::{self, Read};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 
-use super::super::packing::{Look, Stream, Unpackable};
+use super::super::packing::{Look, Opened, Stream, Unpackable};
+use super::super::view::Want;
 use super::access::FileBytes;
 use super::errors::{broken, damaged};
 use super::kind::Kind;
 use super::pages::{column_reader, guarded};
-use super::schema::Schema;
+use super::schema::{Flat, Schema};
+use super::settle::facts;
+use super::thrift::largest_page;
 use super::value::Stored;
 use crate::memory::{Full, Share};
 
@@ -26,9 +29,10 @@ pub(crate) fn known(start: &[u8]) -> bool {
 }
 
 /// The text of a file; `packed`, the stream of its bytes, is passed over as far as rows have been given.
-pub(crate) fn unpack<'a>(file: Box<dyn Look + 'a>, packed: Stream<'a>) -> Result<Stream<'a>, Unpackable> {
+pub(crate) fn unpack<'a>(file: Box<dyn Look + 'a>, packed: Stream<'a>, _: Want) -> Result<Opened<'a>, Unpackable> {
     let file = FileBytes::of(file).map_err(|e| damaged(&e.to_string()))?;
     let schema = Schema::of(&file)?;
+    let facts = Some(facts(&schema).into());
     let mut text = Text {
         out: Vec::new(),
         given: 0,
@@ -43,7 +47,7 @@ pub(crate) fn unpack<'a>(file: Box<dyn Look + 'a>, packed: Stream<'a>) -> Result
         schema,
     };
     text.names();
-    Ok(Box::new(text))
+    Ok(Opened { text: Box::new(text), facts })
 }
 
 /// The text of a file, as it is read.
@@ -83,15 +87,7 @@ impl Text<'_> {
             if i > 0 {
                 self.out.push(b',');
             }
-            let name: String = flat
-                .name
-                .trim_start_matches('\u{feff}')
-                .chars()
-                .map(|c| if c.is_control() { ' ' } else { c })
-                .collect();
-            let plain = name.trim() == name && !name.contains([',', '"', '\'']) && !is_comment(name.as_bytes());
-            let text = if plain { name } else { format!("\"{}\"", name.replace('"', "\"\"")) };
-            self.out.extend_from_slice(text.as_bytes());
+            self.out.extend_from_slice(name_cell(&flat.name).as_bytes());
         }
         self.out.push(b'\n');
     }
@@ -146,8 +142,13 @@ impl Text<'_> {
             self.schema.flat.iter().map(|flat| group.column(flat.leaf).compressed_size().unsigned_abs()).sum();
         self.share.set(bytes).map_err(full)?;
         if rows > 0 {
-            for flat in &self.schema.flat {
-                let chunk = self.schema.chunk(&self.file, self.group, flat.leaf).map_err(|e| failed_with(&e.what))?;
+            let chunk = |flat: &Flat| self.schema.chunk(&self.file, self.group, flat.leaf);
+            let chunks = self.schema.flat.iter().map(chunk).collect::<Result<Vec<_>, _>>();
+            let chunks = chunks.map_err(|e| failed_with(&e.what))?;
+            // A page of each column is unpacked at a time, whatever its size.
+            let pages: u64 = chunks.iter().map(|chunk| largest_page(&chunk.bytes)).fold(0, u64::saturating_add);
+            self.share.set(bytes.saturating_add(pages)).map_err(full)?;
+            for (flat, chunk) in self.schema.flat.iter().zip(chunks) {
                 let reader = guarded(|| column_reader(chunk, group.column(flat.leaf), rows)).map_err(failed)?;
                 let nullable = group.column(flat.leaf).column_descr().max_def_level();
                 self.columns.push(Column {
@@ -172,8 +173,16 @@ impl Text<'_> {
     }
 }
 
+/// The name of a column as a cell of the first line.
+pub(crate) fn name_cell(name: &str) -> String {
+    let shown = name.trim_start_matches('\u{feff}').chars().map(|c| if c.is_control() { ' ' } else { c });
+    let name: String = shown.collect();
+    let plain = name.trim() == name && !name.contains([',', '"', '\'']) && !is_comment(name.as_bytes());
+    if plain { name } else { format!("\"{}\"", name.replace('"', "\"\"")) }
+}
+
 /// True for a cell that would make its line a comment.
-fn is_comment(cell: &[u8]) -> bool {
+pub(crate) fn is_comment(cell: &[u8]) -> bool {
     let text = cell.trim_ascii_start();
     text.starts_with(b"#") || text.starts_with(b"%") || text.starts_with(b"//")
 }

@@ -20,14 +20,49 @@ pub fn names_columns(path: &Path) -> bool {
     name.rsplit_once('.').is_some_and(|(_, ending)| ENDINGS.contains(&ending))
 }
 
-/// True where the name of an output asks for a Parquet file: by its ending, or because it ends like that of the record,
-/// which is one.
+/// How the names of files of arrays end.
+#[cfg(feature = "hdf5")]
+const ARRAYS: [&str; 9] = ["h5", "hdf5", "hdf", "he5", "nc", "nc4", "netcdf", "cdf", "mat"];
+#[cfg(not(feature = "hdf5"))]
+const ARRAYS: [&str; 0] = [];
+
+/// True for a name that ends like those of files of arrays, which are read and not written.
 #[must_use]
-pub fn is_columns_name(path: &Path, track: &Track) -> bool {
-    let ending = |path: &Path| path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    let own = || track.source.path().map(ending);
-    let like_own = || track.dialect.packing.is_some_and(Packing::is_columnar) && own() == Some(ending(path));
-    names_columns(path) || (path != Path::new(super::super::DASH) && like_own())
+pub fn names_arrays(path: &Path) -> bool {
+    ending(path).is_some_and(|ending| ARRAYS.contains(&ending.as_str()))
+}
+
+fn ending(path: &Path) -> Option<String> {
+    path.extension().map(|e| e.to_string_lossy().to_lowercase())
+}
+
+/// What a cleaned copy is written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CopyForm {
+    /// Text.
+    Text,
+    /// A Parquet file.
+    Columns,
+}
+
+/// What the name of a cleaned copy asks for: a Parquet file by its ending, or because it ends like that of the record,
+/// which is one; otherwise text.
+///
+/// # Errors
+/// [`Error::Usage`] for the name of a file of arrays where the record is one: such files are not written.
+pub fn copy_form(path: &Path, track: &Track) -> Result<CopyForm> {
+    let named = path != Path::new(super::super::DASH);
+    let packing = track.dialect.packing.filter(|packing| packing.is_columnar() && named);
+    let like_own = track.source.path().map(ending) == Some(ending(path));
+    match packing {
+        _ if names_columns(path) => Ok(CopyForm::Columns),
+        Some(packing) if !packing.is_written() && (like_own || names_arrays(path)) => Err(Error::usage(
+            format!("{}: {} is read, and not written", path.display(), packing.a_file()),
+            "give the cleaned copy a name that ends in .csv or .parquet",
+        )),
+        Some(packing) if packing.is_written() && like_own => Ok(CopyForm::Columns),
+        _ => Ok(CopyForm::Text),
+    }
 }
 
 /// Columns of flags beside those of a Parquet file.
@@ -54,7 +89,8 @@ pub fn write_columns(
     out: &mut dyn Write,
 ) -> Result<()> {
     let flags = flags.map(|form| Flags::of(track, changes, form)).transpose()?;
-    let bytes = if track.dialect.packing.is_some_and(Packing::is_columnar) {
+    let own = |packing: &Packing| packing.is_columnar() && packing.is_written();
+    let bytes = if track.dialect.packing.is_some_and(own) {
         copy::copied(track, changes, flags.as_ref())?
     } else {
         table::table(track, changes, flags.as_ref())?

@@ -18,6 +18,7 @@ pub(super) const FORMAT: Format = Format {
             && words.next().is_some_and(|w| w.eq_ignore_ascii_case("crd"))
     },
     sheet: Some(sheet),
+    utc: true,
     ..PLAIN
 };
 

@@ -9,6 +9,7 @@ pub(super) const FORMAT: Format = Format {
     maps: "time `MESS_DATUM`, -999 is no value",
     known: |text| text.lines().next().is_some_and(|l| l.starts_with("STATIONS_ID;MESS_DATUM")),
     complete,
+    utc: true,
     ..PLAIN
 };
 

@@ -10,6 +10,7 @@ pub(super) const FORMAT: Format = Format {
     known: |text| text.lines().take(3).any(|l| l.contains("IAGA-2002")),
     complete,
     closed: true,
+    utc: true,
     ..PLAIN
 };
 

@@ -12,6 +12,7 @@ pub(super) const FORMAT: Format = Format {
     known: |text| header(text).is_some(),
     complete,
     label,
+    utc: true,
     ..PLAIN
 };
 

@@ -12,6 +12,7 @@ pub(super) const FORMAT: Format = Format {
         first.starts_with("YY ") && first.contains("MM DD hh") || first.starts_with("YYYY MM DD hh")
     },
     complete,
+    utc: true,
     ..PLAIN
 };
 

@@ -28,6 +28,7 @@ pub(super) const FORMAT: Format = Format {
         read && sentences * 2 >= first.len()
     },
     sheet: Some(sheet),
+    utc: true,
     ..PLAIN
 };
 

@@ -16,6 +16,7 @@ pub(super) const FORMAT: Format = Format {
     },
     complete,
     label: |text, name| if pos(text).is_some() { label(name) } else { Label::default() },
+    utc: true,
     ..PLAIN
 };
 

@@ -7,7 +7,7 @@ pub(super) const FORMAT: Format = Format {
     name: "USGS RDB",
     about: "tables of the National Water Information System",
     known_by: "a line of names that begins with `agency_cd` and tabs",
-    maps: "time `datetime`; units from the list of parameters in the comments; columns `_cd` are no channels; remarks \
+    maps: "time `datetime`, in the zone that `tz_cd` tells in each row; units from the list of parameters in the comments; columns `_cd` are no channels; remarks \
            like `Ice` and `Eqp` are no values",
     known: |text| header(text).is_some(),
     complete,
@@ -35,9 +35,6 @@ fn complete(text: &str, known: &mut Known) {
     let names = header(text).and_then(|at| text.lines().nth(at)).unwrap_or("");
     if let Some(time) = names.split('\t').find(|n| *n == "datetime") {
         known.time(time);
-    }
-    if names.contains("\ttz_cd") {
-        known.said.push("times are those of the zones in `tz_cd`, as the file writes them (--time-zone America/New_York, say, makes them UTC)".to_owned());
     }
 }
 

@@ -15,6 +15,7 @@ pub(super) const FORMAT: Format = Format {
         "Q" | "ns" => Label::aside(Aside::Quality),
         _ => Label::default(),
     },
+    utc: true,
     ..PLAIN
 };
 

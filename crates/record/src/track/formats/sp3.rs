@@ -17,6 +17,7 @@ pub(super) const FORMAT: Format = Format {
         matches!(head, [b'#', b'a'..=b'd', b'P' | b'V', year @ ..] if year.len() > 4 && year[..4].iter().all(u8::is_ascii_digit))
     },
     sheet: Some(sheet),
+    utc: true,
     ..PLAIN
 };
 

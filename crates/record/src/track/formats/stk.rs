@@ -10,6 +10,7 @@ pub(super) const FORMAT: Format = Format {
     known: |text| text.trim_start().starts_with("stk.v."),
     complete,
     closed: true,
+    utc: true,
     ..PLAIN
 };
 

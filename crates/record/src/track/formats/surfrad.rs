@@ -14,6 +14,7 @@ pub(super) const FORMAT: Format = Format {
     },
     complete,
     closed: true,
+    utc: true,
     ..PLAIN
 };
 

@@ -17,6 +17,7 @@ pub(super) const FORMAT: Format = Format {
            are several; a removed value leaves out its line",
     known: |text| text.trim_start().starts_with("CCSDS_TDM_VERS"),
     sheet: Some(sheet),
+    utc: true,
     ..PLAIN
 };
 

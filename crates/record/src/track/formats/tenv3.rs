@@ -25,5 +25,6 @@ pub(super) const FORMAT: Format = Format {
         "corr_en" | "corr_eu" | "corr_nu" => Label::unit(""),
         _ => Label::default(),
     },
+    utc: true,
     ..PLAIN
 };

@@ -99,6 +99,7 @@ fn of_lines(found: Found<'_>, (layout, reading): (Layout, Reading)) -> Head {
         format: None,
         closed: None,
         counted: None,
+        utc: false,
         said: Vec::new(),
         complete: false,
     }

@@ -6,7 +6,7 @@ use bzip2::Compression;
 use bzip2::read::MultiBzDecoder;
 use bzip2::write::BzEncoder;
 
-use super::{Packer, Packing, buffered};
+use super::{Form, Opened, Packer, Packing, buffered};
 
 pub(super) const PACKING: Packing = Packing {
     name: "bzip2",
@@ -20,8 +20,8 @@ pub(super) const PACKING: Packing = Packing {
     },
     tool: "bunzip2 -k",
     joins: true,
-    unpack: |_, stream| Ok(Box::new(MultiBzDecoder::new(buffered(stream)))),
-    pack: Some(|out, _| Ok(Box::new(BzEncoder::new(out, Compression::best())))),
+    unpack: |_, stream, _| Ok(Opened::text(MultiBzDecoder::new(buffered(stream)))),
+    form: Form::Text(|out, _| Ok(Box::new(BzEncoder::new(out, Compression::best())))),
 };
 
 impl Packer for BzEncoder<&mut dyn Write> {

@@ -6,7 +6,7 @@ use flate2::read::MultiGzDecoder;
 use flate2::write::GzEncoder;
 use flate2::{Compression, GzBuilder};
 
-use super::{Packer, Packing, buffered};
+use super::{Form, Opened, Packer, Packing, buffered};
 
 pub(super) const PACKING: Packing = Packing {
     name: "gzip",
@@ -14,9 +14,9 @@ pub(super) const PACKING: Packing = Packing {
     known: |start| start.starts_with(&[0x1f, 0x8b]),
     tool: "gunzip -k",
     joins: true,
-    unpack: |_, stream| Ok(Box::new(MultiGzDecoder::new(buffered(stream)))),
+    unpack: |_, stream, _| Ok(Opened::text(MultiGzDecoder::new(buffered(stream)))),
     // No time stamp: the same content makes the same file.
-    pack: Some(|out, _| Ok(Box::new(GzBuilder::new().mtime(0).write(out, Compression::default())))),
+    form: Form::Text(|out, _| Ok(Box::new(GzBuilder::new().mtime(0).write(out, Compression::default())))),
 };
 
 impl Packer for GzEncoder<&mut dyn Write> {

@@ -1,7 +1,7 @@
 //! Parquet.
 
 use super::super::columnar::{known, unpack};
-use super::Packing;
+use super::{Form, Packing};
 
 pub(super) const PACKING: Packing =
-    Packing { name: "Parquet", ending: ".parquet", known, tool: "", joins: false, unpack, pack: None };
+    Packing { name: "Parquet", ending: ".parquet", known, tool: "", joins: false, unpack, form: Form::Columns };

@@ -153,7 +153,8 @@ fn a_text_of_many_pieces_comes_back_and_always_packs_alike() {
         assert!(out.len() < text.len() / 2, "{packing:?}: {}", out.len());
         assert_eq!(Packing::of(&out), Some(packing));
         let mut again = Vec::new();
-        packing.unpack(Box::new(io::Cursor::new(&out)), Box::new(&out[..])).unwrap().read_to_end(&mut again).unwrap();
+        let opened = packing.unpack(Box::new(io::Cursor::new(&out)), Box::new(&out[..]), Want::default());
+        opened.unwrap().text.read_to_end(&mut again).unwrap();
         assert!(again == text.as_bytes(), "{packing:?}");
         assert!(!packed(packing, b"").is_empty(), "{packing:?}: nothing is a file too");
     }

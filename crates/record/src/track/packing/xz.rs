@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use lzma_rust2::{XzOptions, XzReader, XzWriter};
 
-use super::{Packer, Packing, buffered};
+use super::{Form, Opened, Packer, Packing, buffered};
 
 /// A dictionary that is larger than `xz -9` makes is no record, but somebody who means harm.
 const MOST_MEMORY_KIB: u32 = 256 << 10;
@@ -17,8 +17,8 @@ pub(super) const PACKING: Packing = Packing {
     known: |start| start.starts_with(b"\xfd7zXZ\0"),
     tool: "unxz -k",
     joins: true,
-    unpack: |_, stream| Ok(Box::new(XzReader::new_mem_limit(buffered(stream), true, MOST_MEMORY_KIB))),
-    pack: Some(|out, _| Ok(Box::new(XzWriter::new(out, XzOptions::with_preset(PRESET))?))),
+    unpack: |_, stream, _| Ok(Opened::text(XzReader::new_mem_limit(buffered(stream), true, MOST_MEMORY_KIB))),
+    form: Form::Text(|out, _| Ok(Box::new(XzWriter::new(out, XzOptions::with_preset(PRESET))?))),
 };
 
 impl Packer for XzWriter<&mut dyn Write> {

@@ -7,7 +7,8 @@ use flate2::read::DeflateDecoder;
 use zip::write::{SimpleFileOptions, StreamWriter};
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
-use super::{Look, Packer, Packing, Stream, Unpackable, buffered};
+use super::super::view::Want;
+use super::{Form, Look, Opened, Packer, Packing, Stream, Unpackable, buffered};
 
 pub(super) const PACKING: Packing = Packing {
     name: "zip",
@@ -17,7 +18,7 @@ pub(super) const PACKING: Packing = Packing {
     tool: "unzip",
     joins: false,
     unpack,
-    pack: Some(pack),
+    form: Form::Text(pack),
 };
 
 /// How many names of an archive are told.
@@ -33,7 +34,7 @@ struct Member {
     crc: u32,
 }
 
-fn unpack<'a>(file: Box<dyn Look + 'a>, mut stream: Stream<'a>) -> Result<Stream<'a>, Unpackable> {
+fn unpack<'a>(file: Box<dyn Look + 'a>, mut stream: Stream<'a>, _: Want) -> Result<Opened<'a>, Unpackable> {
     let broken = |e: io::Error| PACKING.broken(&e);
     let member = the_one(file)?;
     io::copy(&mut (&mut stream).take(member.start), &mut io::sink()).map_err(broken)?;
@@ -43,10 +44,10 @@ fn unpack<'a>(file: Box<dyn Look + 'a>, mut stream: Stream<'a>) -> Result<Stream
         CompressionMethod::Deflated => Box::new(DeflateDecoder::new(packed)),
         other => {
             let what = format!("a zip archive whose file is packed by {other:?}, which is not read");
-            return Err(Unpackable { what, help: "unpack it and name the file in it: unzip FILE".into() });
+            return Err(Unpackable::new(what, "unpack it and name the file in it: unzip FILE"));
         }
     };
-    Ok(Box::new(Checked { text, sum: Crc::new(), crc: member.crc }))
+    Ok(Opened::text(Checked { text, sum: Crc::new(), crc: member.crc }))
 }
 
 /// The one file of an archive.
@@ -63,7 +64,7 @@ fn the_one(file: Box<dyn Look + '_>) -> Result<Member, Unpackable> {
         }
         if entry.encrypted() {
             let what = format!("a zip archive with a password: {}", super::super::printable(&name));
-            return Err(Unpackable { what, help: "unpack it and name the file in it: unzip FILE".into() });
+            return Err(Unpackable::new(what, "unpack it and name the file in it: unzip FILE"));
         }
         let start = entry.data_start().unwrap_or_default();
         let member = Member { start, length: entry.compressed_size(), method: entry.compression(), crc: entry.crc32() };
@@ -72,10 +73,9 @@ fn the_one(file: Box<dyn Look + '_>) -> Result<Member, Unpackable> {
     }
     match (found, names.len()) {
         (Some(member), 1) => Ok(member),
-        (None, _) => Err(Unpackable {
-            what: "a zip archive without a file".into(),
-            help: "name a file with a header and rows of numbers".into(),
-        }),
+        (None, _) => {
+            Err(Unpackable::new("a zip archive without a file", "name a file with a header and rows of numbers"))
+        }
         (Some(_), _) => Err(several(&names)),
     }
 }
@@ -89,17 +89,17 @@ fn is_aside(name: &str) -> bool {
 fn several(names: &[String]) -> Unpackable {
     let has = |wanted: &str| names.iter().any(|name| name == wanted);
     if has("[Content_Types].xml") || has("mimetype") {
-        return Unpackable {
-            what: "a spreadsheet or a document (xlsx, ods), not a table of text".into(),
-            help: "export the sheet as CSV: soffice --convert-to csv FILE".into(),
-        };
+        return Unpackable::new(
+            "a spreadsheet or a document (xlsx, ods), not a table of text",
+            "export the sheet as CSV: soffice --convert-to csv FILE",
+        );
     }
     let told: Vec<String> = names.iter().take(TOLD).map(|name| super::super::printable(name)).collect();
     let more = if names.len() > TOLD { ", …" } else { "" };
-    Unpackable {
-        what: format!("a zip archive of {} files: {}{more}", names.len(), told.join(", ")),
-        help: "unpack it (unzip FILE) and name one of them, or each of them for `clean`".into(),
-    }
+    Unpackable::new(
+        format!("a zip archive of {} files: {}{more}", names.len(), told.join(", ")),
+        "unpack it (unzip FILE) and name one of them, or each of them for `clean`",
+    )
 }
 
 /// A text whose sum is compared when it ends.

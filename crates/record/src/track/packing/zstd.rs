@@ -6,7 +6,7 @@ use ruzstd::decoding::errors::{FrameDecoderError, ReadFrameHeaderError};
 use ruzstd::decoding::{BlockDecodingStrategy, FrameDecoder};
 use ruzstd::encoding::{CompressionLevel, compress_to_vec};
 
-use super::{Packer, Packing, Stream, buffered};
+use super::{Form, Opened, Packer, Packing, Stream, buffered};
 
 pub(super) const PACKING: Packing = Packing {
     name: "zstd",
@@ -15,8 +15,10 @@ pub(super) const PACKING: Packing = Packing {
     known: |start| matches!(start, [0x28, 0xb5, 0x2f, 0xfd, ..] | [0x50..=0x5f, 0x2a, 0x4d, 0x18, ..]),
     tool: "zstd -d",
     joins: true,
-    unpack: |_, stream| Ok(Box::new(Frames { stream: buffered(stream), decoder: FrameDecoder::new(), within: false })),
-    pack: Some(|out, _| Ok(Box::new(FrameWriter { out, text: Vec::new() }))),
+    unpack: |_, stream, _| {
+        Ok(Opened::text(Frames { stream: buffered(stream), decoder: FrameDecoder::new(), within: false }))
+    },
+    form: Form::Text(|out, _| Ok(Box::new(FrameWriter { out, text: Vec::new() }))),
 };
 
 /// The frames of a file, one after the other.

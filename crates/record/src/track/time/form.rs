@@ -192,7 +192,27 @@ pub(crate) fn number_form(numbers: &Numbers<'_>) -> (TimeFormat, Option<String>)
     if digits_are_clocks(numbers, rank, &words) {
         return assumed(TimeFormat::Parts(vec![super::Part::Clock]));
     }
-    (counted(numbers, numbers.unit), None)
+    match counted(numbers, numbers.unit) {
+        TimeFormat::Seconds if numbers.unit.is_none() && rank >= 3 && decimals == 0 && are_microseconds(values, step) => {
+            assumed(TimeFormat::Elapsed { unit_ns: 1_000 })
+        }
+        format => (format, None),
+    }
+}
+
+/// True for whole numbers that go on by a thousandth of a second to a second, if they count microseconds: steps of about one
+/// size that are not round, as a clock that was read gives them. Seconds would be hours apart, to the second.
+fn are_microseconds(values: &[f64], step: f64) -> bool {
+    const FEWEST: usize = 8;
+    let typical = middle(values.to_vec());
+    let steps: Vec<f64> = values.windows(2).map(|w| w[1] - w[0]).collect();
+    let most = |fits: &dyn Fn(&f64) -> bool| steps.iter().filter(|s| fits(s)).count() * 5 >= steps.len() * 4;
+    let odd = steps.iter().filter(|s| **s % 10.0 != 0.0).count();
+    steps.len() >= FEWEST
+        && (1e6..1e13).contains(&typical)
+        && (1e3..1e6).contains(&step)
+        && most(&|s| (0.5 * step..=1.5 * step).contains(s))
+        && odd * 2 > steps.len()
 }
 
 /// Seconds, another unit, or time since 1970: by the unit, and by the size of the numbers where that and name or steps

@@ -29,6 +29,8 @@ pub enum Part {
     },
     /// Seconds since 1970, or another whole number of seconds that is the coarse part of the time.
     Seconds,
+    /// The zone of the clocks of the row: `EST`, `+01:00`, or hours.
+    Zone,
     /// A week of the GPS calendar, counted from 1980-01-06; numbers below 1024 are those since April 2019.
     GpsWeek,
 }
@@ -78,6 +80,7 @@ pub(crate) fn moment<'a>(parts: &[Part], cell: impl Fn(usize) -> &'a [u8], decim
             Part::Hour => sum = sum.checked_add(count(3600 * SECOND)?)?,
             Part::Count { unit_ns } => sum = sum.checked_add(count(unit_ns)?)?,
             Part::Seconds => sum = sum.checked_add(count(SECOND)?)?,
+            Part::Zone => sum = sum.checked_sub(offset_in(std::str::from_utf8(text).ok()?, true)?)?,
             Part::GpsWeek => {
                 let week = whole()?;
                 let week = if week < 1024 { week + 2048 } else { week };
@@ -88,6 +91,22 @@ pub(crate) fn moment<'a>(parts: &[Part], cell: impl Fn(usize) -> &'a [u8], decim
     let Some(year) = year else { return Some(sum) };
     let date = Date { year, month: month?, day: day.unwrap_or(1) };
     sum.checked_add(date.days()?.checked_mul(DAY)?)
+}
+
+/// How far a zone lies ahead of UTC, in nanoseconds: by its name, by its offset, and by hours (`-5`) where those can be
+/// meant.
+pub(crate) fn offset_in(zone: &str, hours: bool) -> Option<i64> {
+    let zone = zone.trim();
+    if zone.is_empty() {
+        return None;
+    }
+    let counted = || {
+        let value: f64 = zone.parse().ok().filter(|value: &f64| hours && value.abs() <= 14.0)?;
+        #[expect(clippy::cast_possible_truncation, reason = "at most 14 hours")]
+        let quarters = (value * 4.0).round() as i64;
+        Some(quarters * 900 * SECOND)
+    };
+    super::words::zone(zone.as_bytes()).or_else(|| timestamp::offset(zone.as_bytes())).or_else(counted)
 }
 
 /// `4.0` is 4.
@@ -186,6 +205,7 @@ pub(crate) fn written(part: Part, parts: &[Part], sample: &str, ns: i64) -> Stri
             }
         },
         Part::Hour => counted(of_day, 3600 * SECOND),
+        Part::Zone => sample.to_owned(),
         Part::Seconds => counted(ns, SECOND),
         Part::Count { unit_ns } if parts.contains(&Part::GpsWeek) => {
             counted((ns - GPS_ZERO_DAYS * DAY).rem_euclid(7 * DAY), unit_ns)

@@ -7,6 +7,7 @@ use super::super::head::Head;
 use super::super::time::{DateOrder, Numbers, Part, Pattern, Zone, number_form, order_of, zone_in};
 use super::super::{LoadOptions, TimeFormat, Worded, names, printable};
 use super::form::{Form, numbers};
+use super::zones::{are_local, with_column};
 use super::{Count, Timing, columns, undecided, unitless, unreadable};
 use crate::error::{Error, Result};
 
@@ -129,7 +130,10 @@ impl<'a> Candidates<'a> {
         }
         timing.zone = match self.options.time_zone.as_deref() {
             Some(told) => Some(Zone::find(told)?),
-            None => self.named_zone(&mut timing),
+            None => {
+                timing = with_column(self.head, timing);
+                self.named_zone(&mut timing)
+            }
         };
         let fits = |pattern: &Pattern| match &timing.format {
             TimeFormat::Pattern(_) => true,
@@ -149,12 +153,7 @@ impl<'a> Candidates<'a> {
 
     /// The zone that the name or the unit of a column of the time tells, where its cells tell none.
     fn named_zone(&self, timing: &mut Timing) -> Option<Zone> {
-        let local = match &timing.format {
-            TimeFormat::Iso | TimeFormat::YearLast { .. } | TimeFormat::Stamp { .. } => true,
-            TimeFormat::Pattern(pattern) => pattern.has_date(),
-            TimeFormat::Parts(parts) => parts.iter().any(|p| p.dates()) && !parts.contains(&Part::GpsWeek),
-            _ => false,
-        };
+        let local = are_local(&timing.format);
         let head = self.head;
         let in_cell = |cell: &&str| {
             let pieces = super::fields(cell.as_bytes(), DateOrder::YearFirst);

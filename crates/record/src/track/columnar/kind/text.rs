@@ -19,7 +19,7 @@ pub(super) fn whole(value: &Value<'_>) -> i64 {
 }
 
 /// The shortest text that reads back as the same number, as [`number_text`](crate::track::number_text()) writes it.
-pub(super) fn float<F: Into<f64> + Copy + std::fmt::Display + std::fmt::LowerExp>(value: F, out: &mut Vec<u8>) {
+pub(crate) fn float<F: Into<f64> + Copy + std::fmt::Display + std::fmt::LowerExp>(value: F, out: &mut Vec<u8>) {
     let size = value.into().abs();
     if size == 0.0 || !size.is_finite() || (1e-5..1e16).contains(&size) {
         shown(out, value);
@@ -90,8 +90,10 @@ pub(super) fn clock(of_day: i64, unit: Unit, out: &mut Vec<u8>) {
     digits(out, seconds / 60 % 60, 2);
     out.push(b':');
     digits(out, seconds % 60, 2);
-    out.push(b'.');
-    digits(out, part, unit.digits as usize);
+    if unit.digits > 0 {
+        out.push(b'.');
+        digits(out, part, unit.digits as usize);
+    }
 }
 
 pub(super) fn timestamp(units: i128, unit: Unit, utc: bool, out: &mut Vec<u8>) {
@@ -152,7 +154,7 @@ const LONGEST: usize = 64 << 10;
 const MOST_LINES: usize = 500;
 
 /// A text, in quotes where a cell needs them.
-pub(super) fn text(bytes: &[u8], out: &mut Vec<u8>) {
+pub(crate) fn text(bytes: &[u8], out: &mut Vec<u8>) {
     let Ok(whole) = std::str::from_utf8(bytes) else { return hexadecimal(bytes, out) };
     if whole.contains('\0') {
         return hexadecimal(bytes, out);
