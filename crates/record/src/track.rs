@@ -333,6 +333,8 @@ pub enum Aside {
     Quality,
     /// One value.
     Constant,
+    /// It tells how an instrument was set, beside the first rows.
+    Setting,
 }
 
 impl Aside {
@@ -347,6 +349,7 @@ impl Aside {
             Self::Flag => "flag",
             Self::Quality => "quality",
             Self::Constant => "constant",
+            Self::Setting => "setting",
         }
     }
 
@@ -361,6 +364,7 @@ impl Aside {
             Self::Flag => "it holds two values",
             Self::Quality => "it holds few values, under a name of quality",
             Self::Constant => "it holds one value",
+            Self::Setting => "settings beside the first rows",
         }
     }
 }

@@ -7,7 +7,8 @@ use std::process::Command;
 use std::sync::Arc;
 
 use wildpoint_record::track::{
-    Aside, ColumnKind, LoadOptions, Preview, Source, Track, Wanted, for_each_row, load,
+    Aside, CellChange, Changes, ColumnKind, CopyForm, LoadOptions, Preview, Source, Track, Wanted, copy_form,
+    for_each_row, load, rewrite, write_columns,
 };
 
 const ROWS: usize = 60;
@@ -164,13 +165,11 @@ fn table(path: &Path) {
 
 fn matlab(path: &Path) {
     let track = loaded(path, None);
-    // Days in doubles are exact to some microseconds.
-    assert!(track.time.full_label(0.0).starts_with("2021-03-04 10:00:00"), "{}", track.time.full_label(0.0));
-    assert!((track.time.seconds[59] - 59.0).abs() < 1e-4 && track.time.name == "t", "{:?}", track.time.seconds);
+    assert_eq!((times(&track), track.time.name.as_str()), (("2021-03-04T10:00:00Z".into(), 1.0), "t"));
     same(values(&track, "s/alt"), wild);
     same(values(&track, "xyz[2]"), |i| saw(i) + 2.0);
-    assert!(says(&track, "`note` (text)"), "{:?}", track.notes);
-    assert_eq!(kind(&track, "s/ok"), ColumnKind::Text);
+    assert!(says(&track, "datenum") && says(&track, "`note` (text)"), "{:?}", track.notes);
+    assert_eq!(kind(&track, "s/ok"), ColumnKind::Aside(Aside::Flag));
 }
 
 #[test]
@@ -191,6 +190,45 @@ fn files_that_the_libraries_write_now_are_read() {
     let made = Command::new(&python).arg(folder().join("make.py")).arg(fresh.path()).output().unwrap();
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
     check(fresh.path());
+}
+
+#[test]
+fn the_cleaned_copy_is_text_or_parquet() {
+    let track = loaded(&folder().join("classic.nc"), None);
+    for name in ["out.nc", "out.h5", "OUT.MAT"] {
+        let e = copy_form(Path::new(name), &track).unwrap_err().to_string();
+        assert!(e.contains("NetCDF file is read, and not written") && e.contains(".csv or .parquet"), "{e}");
+    }
+    assert_eq!(copy_form(Path::new("out.csv"), &track).unwrap(), CopyForm::Text);
+    assert_eq!(copy_form(Path::new("out.parquet"), &track).unwrap(), CopyForm::Columns);
+    let cells = vec![CellChange { row: 30, column: 1, value: Some(21.254_9) }];
+    let changes = Changes { cells, rows: Vec::new() };
+    let mut text = Vec::new();
+    rewrite(&track, &changes, &mut text).unwrap();
+    let lines: Vec<String> = String::from_utf8(text).unwrap().lines().map(str::to_owned).collect();
+    assert_eq!((lines.len(), lines[0].as_str()), (ROWS + 1, "time,temp,pres,temp_state,who"));
+    assert_eq!(lines[31], "2021-03-04T09:00:15.000Z,21.25,13.75,4,ab");
+    assert_eq!(lines[32], "2021-03-04T09:00:15.500Z,23.25,13.875,1,\"c,d\"");
+    let mut parquet = Vec::new();
+    write_columns(&track, &changes, None, &mut parquet).unwrap();
+    let again = of_bytes(parquet).unwrap();
+    assert_eq!((names(&again), times(&again)), (names(&track), times(&track)));
+    same(&again.channels[0].values, |i| match i {
+        5 => f64::NAN,
+        30 => 21.25,
+        _ => saw(i),
+    });
+}
+
+#[test]
+fn options_of_text_are_refused_and_what_is_no_table_is_named() {
+    let source = Source::File(folder().join("groups.h5"));
+    let options = LoadOptions { skip: Some(1), ..LoadOptions::default() };
+    let e = load(&source, &options).unwrap_err().to_string();
+    assert!(e.contains("--skip") && e.contains("groups.h5 is an HDF5 file"), "{e}");
+    // Read again as it was read: the same table.
+    let gps = loaded(&folder().join("groups.h5"), Some(1));
+    assert_eq!(cells(&gps, 3), ["3", "51.003"]);
 }
 
 fn of_bytes(bytes: Vec<u8>) -> Result<Track, String> {

@@ -223,3 +223,39 @@ fn days_of_the_year_of_sea_bird_are_those_of_its_start() {
     assert!(first(&track).starts_with("2021-03-04 12:00:00"), "{}", first(&track));
     assert_eq!(track.time.seconds[ROWS - 1], 10_800.0 * (ROWS - 1) as f64);
 }
+
+#[test]
+fn settings_beside_the_first_rows_are_no_channels() {
+    let settings = ["Record Length,2.5e+03", "Sample Interval,4e-07", "Source,CH1", ",", "Vertical Units,V", "Model Number,TDS2014B"];
+    let beside = |i: usize| settings.get(i).copied().unwrap_or(",");
+    let seconds = |i: usize| format!("{:018.12}", -5e-4 + i as f64 * 4e-7);
+    // Tektronix: no names at all.
+    let track = loaded(&table("", |i| format!("{},,{},  {:9.5},", beside(i), seconds(i), value(i))));
+    assert_eq!((names(&track), track.time.name.as_str()), (vec!["column_5"], "column_4"));
+    assert!((track.time.seconds[10] - 4e-6).abs() < 1e-12 && says(&track, "settings"), "{:?}", track.notes);
+    // With names above.
+    let track = loaded(&table("Record Length,600,Points,Time,CH1\n", |i| {
+        let beside = ["Sample Interval,4e-07,s", "Trigger,300,Points"].get(i).copied().unwrap_or(",,");
+        format!("{beside},{:.8},{:.4}", i as f64 * 4e-7, value(i))
+    }));
+    assert_eq!((names(&track), track.time.name.as_str()), (vec!["CH1"], "Time"));
+    // Rigol: units below the names, and settings where no row has a value.
+    let track = loaded(&table("X,CH1,Start,Increment,\nSequence,Volt,-3.000000e-03,1.000000e-05\n", |i| {
+        format!("{i},{:.3e},,", value(i))
+    }));
+    assert_eq!((names(&track), track.channels[0].unit.as_str()), (vec!["CH1"], "Volt"));
+    // Names that are numbers stay names.
+    let depths = loaded(&table("profile,a,b,c\ntime,10,20,30\n", |i| format!("{i},{:.2},{:.2},{i}.5", value(i), value(i + 1))));
+    assert_eq!(names(&depths)[..2], ["10", "20"]);
+}
+
+#[test]
+fn moments_are_no_channel_whatever_they_are_called() {
+    let stamp = |i: usize| 1_614_852_000_000_000_000_u64 + i as u64 * 20_000_000;
+    let ros = table("%time,field.header.seq,field.header.stamp,field.x\n", |i| {
+        format!("{},{i},{},{:.3}", stamp(i) + (i as u64 * 7919) % 90_001, stamp(i), value(i))
+    });
+    let track = loaded(&ros);
+    assert_eq!(names(&track), ["field.x"]);
+    assert_eq!(kind_of(&track, "field.header.stamp"), ColumnKind::Aside(Aside::Time));
+}

@@ -24,9 +24,6 @@ mod scalar;
 mod tables;
 mod text;
 
-#[cfg(test)]
-mod tests;
-
 use array::Store;
 pub(super) use matlab::BEGINNING as MATLAB_BEGINNING;
 use errors::Trouble;

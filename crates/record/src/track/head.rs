@@ -16,6 +16,7 @@ use super::{Aside, Format, LoadOptions, Rules, Zero, names, printable};
 use crate::error::{Error, Result};
 
 mod earlier;
+mod settings;
 
 /// Rows that are looked at.
 const SAMPLE: usize = 200;
@@ -212,6 +213,11 @@ impl Head {
             && of.layout.delimiter == super::Delimiter::Blanks
             && rows.len() > 2
             && rows.iter().all(|r| r.length == row.length);
+        let beside = if second { settings::columns(&sample, &reading) } else { 0 };
+        let mut said = seen.said(number, first, of.layout.mark, options);
+        if beside > 0 {
+            said.push(format!("settings stand beside the first rows, in the first {beside} columns"));
+        }
         let end = lines.last().filter(|_| table.after < seen.lines.len()).map(|l| l.next);
         Ok(Self {
             layout: of.layout,
@@ -233,12 +239,12 @@ impl Head {
             oddities,
             styles,
             fixed_width,
-            asides: Vec::new(),
+            asides: vec![Some(Aside::Setting); beside],
             format: None,
             closed: None,
             counted: None,
             utc: false,
-            said: seen.said(number, first, of.layout.mark, options),
+            said,
             complete: seen.complete && end.is_none() && rows.len() == SAMPLE,
         })
     }
@@ -255,7 +261,9 @@ impl Head {
                 unit.clone_from(told);
             }
         });
-        self.asides = labels.into_iter().map(|label| label.aside).collect();
+        let beside = std::mem::take(&mut self.asides);
+        let own = |column: usize| beside.get(column).copied().flatten();
+        self.asides = labels.into_iter().enumerate().map(|(c, label)| label.aside.or_else(|| own(c))).collect();
         self.counted = known.counted;
         self.utc = view.map(|view| view.format).or(known.format()).is_some_and(|format| format.utc);
         self.format = known.format();

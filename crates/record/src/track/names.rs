@@ -122,7 +122,7 @@ pub(crate) fn unit_of(name: &str) -> String {
         return String::new();
     }
     let end = name.rsplit_once(['_', ' ']).map(|(_, end)| end);
-    if let Some(end) = end.filter(|e| e.contains('/')) {
+    if let Some(end) = end.filter(|e| e.contains('/') || e.starts_with('°') && e.chars().count() <= 3) {
         return end.to_owned();
     }
     // `PRES.hPa` ends with hectopascals, `TimeNanos` with nanoseconds.

@@ -46,6 +46,8 @@ fn rdb() -> Vec<Case> {
         Case {
             channel: "69928_00060",
             unit: "ft3/s",
+            // Ten o'clock of `EST`.
+            start: "2021-03-04 15:00",
             asides: &["site_no", "69928_00060_cd", "69930_00010_cd"],
             ..case("unit values", "USGS RDB", plain)
         },

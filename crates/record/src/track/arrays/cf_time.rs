@@ -29,6 +29,12 @@ impl Stamp {
         Self { unit_ns, zero_ns: 0 }
     }
 
+    /// Days as Matlab counts them, from the year 0.
+    pub(super) fn datenum() -> Self {
+        const DAYS_TO_1970: i128 = 719_529;
+        Self { unit_ns: DAY.into(), zero_ns: -DAYS_TO_1970 * i128::from(DAY) }
+    }
+
     /// What units and a calendar say.
     pub(super) fn of(units: &str, calendar: Option<&str>) -> Told {
         let Some((unit, zero)) = parted(units) else { return Told::Other };

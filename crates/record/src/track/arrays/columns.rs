@@ -149,6 +149,11 @@ impl Column {
         (!self.fills.iter().any(|fill| fill.marks(value))).then_some(value)
     }
 
+    /// True for numbers of 64 bits that mean nothing but themselves.
+    pub(super) fn is_plain_double(&self) -> bool {
+        self.meaning == Meaning::Plain && matches!(self.kind, Kind::Float { size: 8, .. })
+    }
+
     /// What is known of it without its values.
     pub(super) fn facts(&self) -> ColumnFacts {
         let decimals = match (self.meaning, &self.kind) {

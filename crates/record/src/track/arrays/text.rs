@@ -6,9 +6,12 @@ use std::io::{self, Read};
 use super::super::columnar::{is_comment, name_cell};
 use super::super::facts::Facts;
 use super::super::packing::{Opened, Stream};
+use super::super::printable;
 use super::array::{Bytes, Store};
+use super::cf_time::Stamp;
 use super::columns::{Column, Meaning};
 use super::errors::Trouble;
+use super::matlab::are_datenums;
 use super::scalar::Scalar;
 use super::tables::Chosen;
 use super::cells;
@@ -23,7 +26,7 @@ pub(super) fn text<'a>(
     chosen: Chosen,
     (packed, length): (Stream<'a>, u64),
 ) -> Result<Opened<'a>, Trouble> {
-    let Chosen { table, said } = chosen;
+    let Chosen { table, mut said } = chosen;
     let mut columns = table.columns;
     let mut stored = BTreeMap::new();
     for column in &columns {
@@ -33,7 +36,12 @@ pub(super) fn text<'a>(
         }
     }
     for column in &mut columns {
-        settle_digits(column, stored.get(&column.place).map_or(&[][..], Vec::as_slice));
+        let stored = stored.get(&column.place).map_or(&[][..], Vec::as_slice);
+        if store.is_matlab && column.is_plain_double() && are_datenums(&column.name, numbers(column, stored)) {
+            said.push(format!("`{}`: days as Matlab counts them (datenum)", printable(&column.name)));
+            column.meaning = Meaning::Moment { stamp: Stamp::datenum(), digits: 9 };
+        }
+        settle_digits(column, stored);
     }
     let goes_forward = |name: &&String| {
         let column = columns.iter().find(|column| column.name == **name);

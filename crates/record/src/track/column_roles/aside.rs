@@ -27,6 +27,9 @@ pub(super) fn by_sample(head: &Head, column: usize, timing: Option<&Timing>) -> 
     if is_time_like(head, column, name, one_way, timing) {
         return Some(Aside::Time);
     }
+    if whole && timing.is_some() && rising > 0 && falling == 0 && are_moments(&values) {
+        return Some(Aside::Time);
+    }
     if whole && is_date_part(name, &values) && timing.is_some() {
         return Some(Aside::Time);
     }
@@ -39,6 +42,16 @@ pub(super) fn by_sample(head: &Head, column: usize, timing: Option<&Timing>) -> 
     }
     let few = if distinct <= 2 && is_flag(name) { Aside::Flag } else { Aside::Quality };
     (whole && distinct <= 12 && is_quality(name) && !decimals).then_some(few)
+}
+
+/// True for whole numbers that are milliseconds, microseconds or nanoseconds since 1970, of 2000 to 2100: no quantity
+/// comes to them.
+fn are_moments(values: &[f64]) -> bool {
+    let dated = |units: f64| {
+        let within = |value: &f64| (946_684_800.0 * units..4_102_444_800.0 * units).contains(value);
+        values.iter().all(within)
+    };
+    values.len() >= LEAST && [1e3, 1e6, 1e9].into_iter().any(dated)
 }
 
 /// Another time than the one of the rows.

@@ -109,10 +109,14 @@ fn heading_among(lines: &[Line], first: usize, of: &Lines<'_>, reading: &Reading
                 None => above = Some((at, cells)),
                 Some((names_at, below)) => {
                     // Units that nobody knows, below names of which one is that of a time.
+                    let right_above = first == names_at + 1;
+                    let beside = right_above && rows.first().is_some_and(|row| are_settings(&cells, below, row, reading));
                     let later = heading.units_at.is_none()
-                        && are_units(&cells, below, line, &lines[*names_at], first == names_at + 1);
+                        && (beside || are_units(&cells, below, line, &lines[*names_at], right_above));
                     if later {
-                        (heading.units_at, heading.units) = (Some(*names_at), below.clone());
+                        let is_number = |cell: &String| look(cell.as_bytes(), reading) == Look::Number;
+                        let units = below.iter().map(|cell| if is_number(cell) { String::new() } else { cell.clone() });
+                        (heading.units_at, heading.units) = (Some(*names_at), units.collect());
                         above = Some((at, cells));
                     }
                     break;
@@ -150,6 +154,19 @@ fn loose(lines: &[Line], first: usize, usual: usize) -> Option<(usize, Vec<Strin
     };
     let found = above.take(3).take_while(fits).max_by_key(|at| (lines[*at].filled(), usize::MAX - at))?;
     Some((found, lines[found].cells.clone()))
+}
+
+/// True where `below` has units for the columns of the rows, and for others a number that stands there once: a setting
+/// under its name.
+fn are_settings(names_above: &[String], below: &[String], row: &Line, reading: &Reading) -> bool {
+    let is_number = |cell: &String| look(cell.as_bytes(), reading) == Look::Number;
+    let once = |at: usize| row.cells.get(at).is_none_or(String::is_empty);
+    let numbers: Vec<usize> = (0..below.len()).filter(|at| is_number(&below[*at])).collect();
+    names_above.len() == below.len()
+        && !numbers.is_empty()
+        && numbers.iter().all(|at| once(*at))
+        && !names_above.iter().any(|name| name.is_empty() || is_number(name))
+        && below.first().is_some_and(|cell| !cell.is_empty() && !is_number(cell))
 }
 
 /// True where `below` are the units of `names`.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::super::head::Head;
 use super::super::time::{DateOrder, Numbers, Part, Pattern, Zone, number_form, order_of, zone_in};
-use super::super::{LoadOptions, TimeFormat, Worded, names, printable};
+use super::super::{Aside, LoadOptions, TimeFormat, Worded, names, printable};
 use super::form::{Form, numbers};
 use super::zones::{are_local, with_column};
 use super::{Count, Timing, columns, undecided, unitless, unreadable};
@@ -290,24 +290,28 @@ impl<'a> Candidates<'a> {
 
     /// A first column without a name that says more, which goes forward evenly: the time of a table of measurements.
     fn unnamed(&self) -> Option<Timing> {
-        if self.head.names.len() < 2 || self.forms[0] != Some(Form::Number) || self.head.sample.len() < 8 {
+        // Settings may stand at the left of the rows.
+        let is_setting = |c: &usize| self.head.asides.get(*c) == Some(&Some(Aside::Setting));
+        let column = (0..self.head.names.len()).find(|c| !is_setting(c))?;
+        let alone = column + 1 >= self.head.names.len();
+        if alone || self.forms[column] != Some(Form::Number) || self.head.sample.len() < 8 {
             return None;
         }
-        let values = numbers(self.head, 0);
+        let values = numbers(self.head, column);
         let steps: Vec<f64> = values.windows(2).map(|w| w[1] - w[0]).collect();
         let mut sorted = steps.clone();
         sorted.sort_by(f64::total_cmp);
         let usual = sorted.get(sorted.len() / 2).copied()?;
         let even = steps.iter().filter(|s| (**s - usual).abs() <= 0.02 * usual.abs()).count();
-        let decimals = self.head.column(0).iter().any(|c| c.contains('.'));
+        let decimals = self.head.column(column).iter().any(|c| c.contains('.'));
         // Rows that are counted are what the sample number counts too.
         if usual <= 0.0 || even * 10 < steps.len() * 9 || (usual == 1.0 && !decimals) || self.head.header {
             return None;
         }
-        let mut timing = self.number_timing(0);
+        let mut timing = self.number_timing(column);
         let unit = timing.format.words();
         timing.said =
-            vec![format!("`{}` goes forward evenly and is taken as the time ({unit})", printable(&self.head.names[0]))];
+            vec![format!("`{}` goes forward evenly and is taken as the time ({unit})", printable(&self.head.names[column]))];
         Some(timing)
     }
 

@@ -36,6 +36,18 @@ fn what_cannot_be_read_is_said() {
 }
 
 #[test]
+fn encrypted_columns_are_named_though_the_footer_can_be_read() {
+    // A group of the columns `a` and `b\u{1b}`, the second of which has a key of its own.
+    let plain = [0x3c, 0x39, 0x18, 1, b'a', 0, 0];
+    let locked = [0x8c, 0x2c, 0x19, 0x18, 2, b'b', 0x1b, 0, 0, 0];
+    let footer = [&[0x49, 0x1c, 0x19, 0x2c][..], &plain, &locked, &[0, 0]].concat();
+    let length = u32::try_from(footer.len()).unwrap().to_le_bytes();
+    let e = failure(&[&b"PAR1"[..], &[0; 8], &footer, &length, b"PAR1"].concat());
+    assert!(e.contains("a Parquet file with encrypted columns: `b") && e.contains("without encryption"), "{e}");
+    assert!(!e.contains('\u{1b}'), "{e:?}");
+}
+
+#[test]
 fn no_change_of_a_byte_is_more_than_an_error() {
     let whole = small();
     for at in 0..whole.len() {
