@@ -7,18 +7,23 @@ use super::files;
 use super::model::Model;
 use crate::session::{Detection, Plan, Session, suggestions};
 use crate::stop::Stop;
-use crate::track::{Series, Track, is_id, printable};
+use crate::track::{Series, Track, is_id, is_spread, printable};
 
 /// Samples that are looked at for the plan that is shown first, of all channels together.
 const LOOKED_AT: usize = 100_000;
 
 /// The plan that is shown first: that of the channel in which the most samples stand clear of the noise, among the first
-/// samples of each; without any, of the first channel that is not, by its name, an id.
+/// samples of each; without any, of the first channel that is not, by its name, an id. What tells how well another channel
+/// is known comes after those.
 pub(super) fn plan(session: &Session, track: &Track) -> usize {
-    let first = session.plans.iter().position(|plan| !is_id(&plan.channel)).unwrap_or(0);
+    let measured = |plan: &&Plan| !is_spread(&plan.channel);
+    let any = session.plans.iter().any(|plan| measured(&plan) && !is_id(&plan.channel));
+    let is_shown = |plan: &Plan| !is_id(&plan.channel) && (!any || measured(&plan));
+    let first = session.plans.iter().position(is_shown).unwrap_or(0);
     let most = LOOKED_AT / session.plans.len().max(1);
     let clear = |plan: &Plan| clear(plan, track, most).unwrap_or(0);
-    let counts = session.plans.iter().map(clear).enumerate().filter(|(_, clear)| *clear > 0);
+    let counted = session.plans.iter().enumerate().filter(|(_, plan)| !any || measured(plan));
+    let counts = counted.map(|(index, plan)| (index, clear(plan))).filter(|(_, clear)| *clear > 0);
     // Of equals the first.
     counts.rev().max_by_key(|(_, clear)| *clear).map_or(first, |(index, _)| index)
 }
@@ -104,6 +109,16 @@ mod tests {
         let said = notes(&track);
         assert!(said[0].starts_with("1 unreadable cell ") && said[1].contains(":loader"), "{said:?}");
         assert!(notes(&loaded("t_s,x\n0,1\n1,2\n2,3\n", &LoadOptions::default()).0).is_empty());
+    }
+
+    #[test]
+    fn what_tells_how_well_another_channel_is_known_is_not_shown_first() {
+        let row =
+            |i: usize| format!("{i},{}.{},0.0{}\n", 3 + i % 5, i * 7 % 10, if i == 40 { 999 } else { 10 + i % 3 });
+        let text: String = (0..80).map(row).collect();
+        let text: &'static str = Box::leak(format!("t_s,east_m,sig_e\n{text}").into_boxed_str());
+        let (track, session) = loaded(text, &LoadOptions::default());
+        assert_eq!(session.plans[plan(&session, &track)].channel, "east_m");
     }
 
     #[test]

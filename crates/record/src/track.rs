@@ -73,7 +73,7 @@ pub use keywords::{TimeUnit, Worded};
 pub use lines::{FileLine, LinePart, first_lines};
 pub use load::{load, load_extent, load_while};
 pub use multi_track::Target;
-pub use names::is_id;
+pub use names::{is_id, is_spread};
 pub use number::{Cell, Reading, number_text, without_signed_zero};
 pub use options::{LoadOptions, Rules};
 #[cfg(any(test, feature = "faults"))]
@@ -382,6 +382,20 @@ pub struct Channel {
     pub target: Option<Target>,
     /// One value per row (of its target, where it has one); NaN where there is none.
     pub values: Vec<f64>,
+}
+
+impl Channel {
+    /// The unit, where the name does not end with it in brackets.
+    #[must_use]
+    pub fn unit_beside_name(&self) -> &str {
+        let within = |open: char, close: char| {
+            self.name
+                .strip_suffix(close)
+                .and_then(|rest| rest.rsplit_once(open))
+                .is_some_and(|(_, unit)| unit == self.unit)
+        };
+        if within('[', ']') || within('(', ')') { "" } else { &self.unit }
+    }
 }
 
 /// The times of a record.

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
+use wildpoint_record::error::Error;
 use wildpoint_record::track::{
     Aside, CellChange, Changes, ColumnKind, CopyForm, LoadOptions, Preview, Source, Track, Wanted, copy_form,
     for_each_row, load, rewrite, write_columns,
@@ -98,7 +99,10 @@ fn classic(path: &Path) {
     same(values(&track, "temp"), |i| if i == 5 { f64::NAN } else { wild(i) });
     same(values(&track, "pres"), |i| if i == 7 { f64::NAN } else { 10.0 + i as f64 / 8.0 });
     assert_eq!((unit(&track, "temp"), unit(&track, "pres")), ("degC", "dbar"));
-    assert_eq!((kind(&track, "temp_state"), kind(&track, "who")), (ColumnKind::Aside(Aside::Quality), ColumnKind::Text));
+    assert_eq!(
+        (kind(&track, "temp_state"), kind(&track, "who")),
+        (ColumnKind::Aside(Aside::Quality), ColumnKind::Text)
+    );
     assert!(says(&track, "`temp` is sea water temperature"), "{:?}", track.notes);
     // As short as they were packed: two decimals.
     assert_eq!(cells(&track, 30), ["2021-03-04T09:00:15.000Z", "99.50", "13.75", "4", "ab"]);
@@ -218,6 +222,12 @@ fn the_cleaned_copy_is_text_or_parquet() {
         30 => 21.25,
         _ => saw(i),
     });
+}
+
+#[test]
+fn what_takes_more_memory_than_there_is_is_refused_before_it_is_taken() {
+    let e = load(&Source::File(folder().join("sparse.h5")), &LoadOptions::default()).unwrap_err();
+    assert!(matches!(e, Error::Memory { .. }), "{e}");
 }
 
 #[test]

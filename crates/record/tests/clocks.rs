@@ -74,14 +74,19 @@ fn what_is_told_or_written_in_the_cells_goes_before_a_column_of_zones() {
     let options = LoadOptions { time_zone: Some("-05:00".into()), ..LoadOptions::default() };
     let track = with(&rdb(), &options);
     assert_eq!((first(&track).as_str(), steps(&track).len()), ("2021-03-13 17:00:00 UTC", 3));
-    let text = (0..30).fold("time,tz,x\n".to_owned(), |text, i| text + &format!("2021-03-04T10:{i:02}:00Z,EST,{}\n", level(i)));
+    let text = (0..30)
+        .fold("time,tz,x\n".to_owned(), |text, i| text + &format!("2021-03-04T10:{i:02}:00Z,EST,{}\n", level(i)));
     assert_eq!(first(&loaded(&text)), "2021-03-04 10:00:00 UTC");
     // The name of a time scale is no zone, and what no zone has is none.
     for (name, cell) in [("source", "GPS"), ("mode", "ABC"), ("tz", "XYZ")] {
         let head = format!("time,{name},x\n");
         let text = (0..30).fold(head, |text, i| text + &format!("2021-03-04 10:{i:02}:00,{cell},{}\n", level(i)));
         let track = loaded(&text);
-        assert_eq!((first(&track).as_str(), track.columns[1].kind), ("2021-03-04 10:00:00", ColumnKind::Text), "{name}");
+        assert_eq!(
+            (first(&track).as_str(), track.columns[1].kind),
+            ("2021-03-04 10:00:00", ColumnKind::Text),
+            "{name}"
+        );
     }
 }
 
@@ -91,10 +96,8 @@ fn a_new_row_has_the_clock_of_the_zone_of_the_row_before() {
     // Half an hour after the last hour of winter, and after the first of summer.
     for (after, clock) in [(13_u32, "2021-03-14 01:30\tEST"), (14, "2021-03-14 03:30\tEDT")] {
         let seconds = track.time.seconds[after as usize] + 1800.0;
-        let changes = Changes {
-            cells: Vec::new(),
-            rows: vec![NewRow { after_row: after, seconds, cells: vec![(4, 3.5)] }],
-        };
+        let changes =
+            Changes { cells: Vec::new(), rows: vec![NewRow { after_row: after, seconds, cells: vec![(4, 3.5)] }] };
         let mut out = Vec::new();
         rewrite(&track, &changes, &mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
@@ -113,8 +116,16 @@ fn clocks_of_an_unknown_zone_are_not_called_utc() {
         (rows(&|i| format!("2021-03-04T10:{i:02}:00Z")), "2021-03-04 10:00:00 UTC", Clocks::Stated),
         (rows(&|i| format!("2021-03-04T10:{i:02}:00+01:00")), "2021-03-04 09:00:00 UTC", Clocks::Stated),
         (rows(&|i| format!("{}", 1_614_852_000 + i)), "2021-03-04 10:00:00 UTC", Clocks::Stated),
-        (rows(&|i| format!("2021-03-04 10:{i:02}:00")).replace("time", "time (UTC)"), "2021-03-04 10:00:00 UTC", Clocks::Stated),
-        (rows(&|i| format!("2021-03-04 10:{i:02}:00")).replace("time", "Zeit (UTC+1)"), "2021-03-04 09:00:00 UTC", Clocks::Stated),
+        (
+            rows(&|i| format!("2021-03-04 10:{i:02}:00")).replace("time", "time (UTC)"),
+            "2021-03-04 10:00:00 UTC",
+            Clocks::Stated,
+        ),
+        (
+            rows(&|i| format!("2021-03-04 10:{i:02}:00")).replace("time", "Zeit (UTC+1)"),
+            "2021-03-04 09:00:00 UTC",
+            Clocks::Stated,
+        ),
     ] {
         let track = loaded(&text);
         assert_eq!((first(&track).as_str(), track.time.clocks), (label, clocks), "{text:.60}");
@@ -147,8 +158,15 @@ fn counters_of_microseconds_are_told_by_their_steps() {
         ("depth", 5_012_345, 4_003, 11),
         ("time", 5_000_000, 4_000, 0),
     ] {
-        assert_ne!(counted(name, start, step, late).time.format, TimeFormat::Elapsed { unit_ns: 1_000 }, "{name} {step}");
+        assert_ne!(
+            counted(name, start, step, late).time.format,
+            TimeFormat::Elapsed { unit_ns: 1_000 },
+            "{name} {step}"
+        );
     }
-    assert_eq!(counted("timestamp", 1_614_852_000, 4_003, 11).time.format, TimeFormat::Epoch { unit_ns: 1_000_000_000 });
+    assert_eq!(
+        counted("timestamp", 1_614_852_000, 4_003, 11).time.format,
+        TimeFormat::Epoch { unit_ns: 1_000_000_000 }
+    );
     assert_eq!(counted("time_ms", 5_012_345, 4_003, 11).time.format, TimeFormat::Elapsed { unit_ns: 1_000_000 });
 }

@@ -226,7 +226,14 @@ fn days_of_the_year_of_sea_bird_are_those_of_its_start() {
 
 #[test]
 fn settings_beside_the_first_rows_are_no_channels() {
-    let settings = ["Record Length,2.5e+03", "Sample Interval,4e-07", "Source,CH1", ",", "Vertical Units,V", "Model Number,TDS2014B"];
+    let settings = [
+        "Record Length,2.5e+03",
+        "Sample Interval,4e-07",
+        "Source,CH1",
+        ",",
+        "Vertical Units,V",
+        "Model Number,TDS2014B",
+    ];
     let beside = |i: usize| settings.get(i).copied().unwrap_or(",");
     let seconds = |i: usize| format!("{:018.12}", -5e-4 + i as f64 * 4e-7);
     // Tektronix: no names at all.
@@ -245,7 +252,8 @@ fn settings_beside_the_first_rows_are_no_channels() {
     }));
     assert_eq!((names(&track), track.channels[0].unit.as_str()), (vec!["CH1"], "Volt"));
     // Names that are numbers stay names.
-    let depths = loaded(&table("profile,a,b,c\ntime,10,20,30\n", |i| format!("{i},{:.2},{:.2},{i}.5", value(i), value(i + 1))));
+    let depths =
+        loaded(&table("profile,a,b,c\ntime,10,20,30\n", |i| format!("{i},{:.2},{:.2},{i}.5", value(i), value(i + 1))));
     assert_eq!(names(&depths)[..2], ["10", "20"]);
 }
 

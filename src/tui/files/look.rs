@@ -120,7 +120,8 @@ fn of_record(preview: &Preview) -> Seen {
 
 fn with_unit(channel: &crate::track::Channel) -> String {
     let name = printable(&channel.name);
-    if channel.unit.is_empty() { name } else { format!("{name} [{}]", printable(&channel.unit)) }
+    let unit = printable(channel.unit_beside_name());
+    if unit.is_empty() { name } else { format!("{name} [{unit}]") }
 }
 
 fn steps(track: &Track, channel: &crate::track::Channel) -> String {

@@ -37,7 +37,10 @@ pub fn default_session(source: &Source) -> PathBuf {
 /// Where the cleaned file goes when nobody says where: a record that stores columns has a copy of its kind.
 #[must_use]
 pub(super) fn default_export(track: &Track) -> PathBuf {
-    let name = track.source.path().filter(|_| track.dialect.packing.is_some_and(|packing| packing.is_columnar() && packing.is_written()));
+    let name = track
+        .source
+        .path()
+        .filter(|_| track.dialect.packing.is_some_and(|packing| packing.is_columnar() && packing.is_written()));
     match name.and_then(Path::extension) {
         Some(own) => beside(&track.source, &format!(".clean.{}", own.to_string_lossy())),
         None => beside(&track.source, OutputKind::Cleaned.ending()),

@@ -32,7 +32,7 @@ impl Plots<'_> {
         let cursor = nearest.and_then(|i| picture.series.y.get(i).map(|&y| Cursor { position: i, y }));
         let widget = TracePlot { columns, theme, glyphs, layers: state.layers, cursor, selection: None };
         let channel = &model.track.channels[state.channel];
-        let unit = printable(&channel.unit);
+        let unit = printable(channel.unit_beside_name());
         let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
         let result = match state.drawn.as_deref() {
             Some(drawn) => format!("{} flagged  ", thousands(drawn.outcome.counts.flagged)),

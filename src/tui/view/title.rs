@@ -27,7 +27,7 @@ fn left_side(model: &Model, width: usize) -> Line<'static> {
     let channel = printable(&model.plan().channel);
     let (at, of) = (model.shown + 1, model.channels.len());
     let place = if of > 1 { format!(" ({at}/{of})") } else { String::new() };
-    let unit = printable(&model.channel().unit);
+    let unit = printable(model.channel().unit_beside_name());
     let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
     let since = match model.standing {
         Standing::Same | Standing::Grown { rows: 0 } => String::new(),

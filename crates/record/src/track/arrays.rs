@@ -25,8 +25,8 @@ mod tables;
 mod text;
 
 use array::Store;
-pub(super) use matlab::BEGINNING as MATLAB_BEGINNING;
 use errors::Trouble;
+pub(super) use matlab::BEGINNING as MATLAB_BEGINNING;
 use tables::Tables;
 
 /// HDF5 and NetCDF-4.

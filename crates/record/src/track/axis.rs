@@ -27,14 +27,24 @@ impl TimeAxis {
     #[must_use]
     pub fn full_label(&self, seconds: f64) -> String {
         let Some(ns) = self.ns_at(seconds) else { return String::new() };
-        let digits = (0..6).find(|d| rounded(ns, *d) == rounded(ns, 6)).unwrap_or(6);
-        let label = self.label(seconds, digits);
+        let label = self.label(seconds, self.digits_of(ns));
         match (self.date(seconds), &self.format) {
             (Some(date), _) if self.clocks == Clocks::Unstated => format!("{date} {label}"),
             (Some(date), _) => format!("{date} {label} UTC"),
             (None, TimeFormat::Seconds) => format!("{label} s"),
             (None, _) => label,
         }
+    }
+
+    /// How many decimals a time needs, to the microsecond; to the nanosecond where samples are closer than ten microseconds.
+    fn digits_of(&self, ns: i128) -> usize {
+        if let Some(unit) = self.number_unit().filter(|unit| *unit < SECOND) {
+            let tenths = |digits: &usize| 10_i128.pow(u32::try_from(*digits).unwrap_or(0));
+            return (0..6).find(|digits| ns * tenths(digits) % i128::from(unit) == 0).unwrap_or(6);
+        }
+        let step = self.seconds.windows(2).map(|pair| pair[1] - pair[0]).find(|step| *step > 0.0);
+        let most = if step.is_some_and(|step| step < 1e-5) { MOST_DECIMALS } else { 6 };
+        (0..most).find(|digits| rounded(ns, *digits) == rounded(ns, most)).unwrap_or(most)
     }
 
     /// The whole time with all the decimals that it has, so that equal texts mean equal times: `2019-11-11T17:57:05.25Z`,
@@ -447,6 +457,14 @@ mod tests {
         let seconds = axis(TimeFormat::Seconds, -966_000_000);
         assert_eq!((seconds.label(1.0, 3), seconds.label(0.5, 1)), ("0.034".into(), "-0.5".into()));
         assert_eq!((seconds.full_label(0.966), seconds.date(0.0)), ("0 s".into(), None));
+        // As many decimals as the numbers of the file need, and as samples that close need.
+        let micros = axis(TimeFormat::Elapsed { unit_ns: 1_000 }, 5_012_345_000);
+        assert_eq!(
+            (micros.full_label(0.000_003), micros.full_label(0.000_000_5)),
+            ("5012348".into(), "5012345.5".into())
+        );
+        let fine = TimeAxis { seconds: vec![0.0, 4e-9], ..axis(TimeFormat::Seconds, 0) };
+        assert_eq!(fine.full_label(0.000_001_332), "0.000001332 s");
         let ms = axis(TimeFormat::Elapsed { unit_ns: 1_000_000 }, 0);
         assert_eq!(ms.label(1.5, 0), "1500");
         assert_eq!(axis(TimeFormat::SampleNumber, 0).label(12.0, 0), "12");

@@ -23,8 +23,8 @@ use super::tokens::inner;
 use super::unsupported::{refuse_binaries, refuse_long_form, refuse_other_formats};
 use super::view::Want;
 use super::{
-    Channel, Clocks, Column, ColumnKind, Delimiter, Dialect, Encoding, Extent, Fault, Faults, LoadOptions, RowsAt, Rules,
-    Source, TimeAxis, TimeFormat, Track, Viewed, Wanted, notes, printable, rows,
+    Channel, Clocks, Column, ColumnKind, Delimiter, Dialect, Encoding, Extent, Fault, Faults, LoadOptions, RowsAt,
+    Rules, Source, TimeAxis, TimeFormat, Track, Viewed, Wanted, notes, printable, rows,
 };
 use crate::error::{Error, Result};
 

@@ -269,6 +269,38 @@ pub(crate) fn is_id_word(word: &str) -> bool {
     IDS.iter().any(|id| word.eq_ignore_ascii_case(id))
 }
 
+/// Words for what tells how well another column is known.
+const SPREADS: [&str; 22] = [
+    "sig",
+    "sigma",
+    "std",
+    "stdev",
+    "stddev",
+    "sd",
+    "sdev",
+    "stderr",
+    "err",
+    "error",
+    "uncertainty",
+    "unc",
+    "precision",
+    "accuracy",
+    "rms",
+    "rmse",
+    "variance",
+    "cov",
+    "dop",
+    "hdop",
+    "vdop",
+    "pdop",
+];
+
+/// True for the name of a column that tells how well another is known: `sig_e(m)`, `alt_std`.
+#[must_use]
+pub fn is_spread(name: &str) -> bool {
+    words(name).iter().any(|word| SPREADS.iter().any(|spread| word.eq_ignore_ascii_case(spread)))
+}
+
 /// True for a name that says "id" and nothing else: `flight_id`, `SVID`, `sensor no`, but not `target_range_m`.
 #[must_use]
 pub fn is_id(name: &str) -> bool {

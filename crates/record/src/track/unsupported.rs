@@ -79,27 +79,9 @@ const BINARIES: [Binary; 20] = [
         help: "a build with --features hdf5 reads it; or write the variables as CSV: h5dump -d /NAME FILE, or ncdump -v NAME FILE",
         read: ARRAYS,
     },
-    Binary {
-        at: 0,
-        begins: b"CDF\x01",
-        name: "a NetCDF file",
-        help: NETCDF_HELP,
-        read: ARRAYS,
-    },
-    Binary {
-        at: 0,
-        begins: b"CDF\x02",
-        name: "a NetCDF file (offsets of 64 bits)",
-        help: NETCDF_HELP,
-        read: ARRAYS,
-    },
-    Binary {
-        at: 0,
-        begins: b"CDF\x05",
-        name: "a NetCDF file (sizes of 64 bits)",
-        help: NETCDF_HELP,
-        read: ARRAYS,
-    },
+    Binary { at: 0, begins: b"CDF\x01", name: "a NetCDF file", help: NETCDF_HELP, read: ARRAYS },
+    Binary { at: 0, begins: b"CDF\x02", name: "a NetCDF file (offsets of 64 bits)", help: NETCDF_HELP, read: ARRAYS },
+    Binary { at: 0, begins: b"CDF\x05", name: "a NetCDF file (sizes of 64 bits)", help: NETCDF_HELP, read: ARRAYS },
     Binary {
         at: 0,
         begins: b"MATLAB 7.3 MAT",
@@ -220,7 +202,8 @@ fn is_asterix(bytes: &[u8]) -> bool {
 /// # Errors
 /// [`Error::Input`] naming what it is and what converts it.
 pub(crate) fn refuse_binaries(stored: &[u8], path: &Path) -> Result<()> {
-    let found = BINARIES.iter().filter(|b| !b.read).find(|b| stored.get(b.at..).is_some_and(|s| s.starts_with(b.begins)));
+    let found =
+        BINARIES.iter().filter(|b| !b.read).find(|b| stored.get(b.at..).is_some_and(|s| s.starts_with(b.begins)));
     if let Some(binary) = found {
         return Err(Error::input(path, format!("{}, not a table of text", binary.name), binary.help));
     }

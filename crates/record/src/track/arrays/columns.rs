@@ -123,8 +123,7 @@ impl Column {
             Told::Moments(stamp) if kind.is_number() => Meaning::Moment { stamp, digits: 9 },
             _ => Scale::of(about, &kind).map_or(Meaning::Plain, Meaning::Scaled),
         };
-        let no_moments =
-            (told == Told::Elsewhere).then(|| NoMoments { name: name.clone(), units: units.to_owned() });
+        let no_moments = (told == Told::Elsewhere).then(|| NoMoments { name: name.clone(), units: units.to_owned() });
         let mut markers = about.numbers("_FillValue").to_vec();
         markers.extend_from_slice(about.numbers("missing_value"));
         if fills == Fills::NetCdf && !about.has("_FillValue") {
@@ -132,8 +131,7 @@ impl Column {
         }
         let unit = if matches!(meaning, Meaning::Moment { .. }) { String::new() } else { units.to_owned() };
         let flag = about.is_flag();
-        let column =
-            Self { name, place: array.place, offset, step, rows, kind, meaning, fills: markers, unit, flag };
+        let column = Self { name, place: array.place, offset, step, rows, kind, meaning, fills: markers, unit, flag };
         (column, no_moments)
     }
 
@@ -184,7 +182,10 @@ mod tests {
             scale(Scalar::F32(0.01), Scalar::F64(273.15)),
             Some(Scale::Exact { factor: 1, offset: 27_315, decimals: 2 })
         );
-        assert_eq!(scale(Scalar::F64(1e-4), Scalar::Int(20)), Some(Scale::Exact { factor: 1, offset: 200_000, decimals: 4 }));
+        assert_eq!(
+            scale(Scalar::F64(1e-4), Scalar::Int(20)),
+            Some(Scale::Exact { factor: 1, offset: 200_000, decimals: 4 })
+        );
         assert_eq!(scale(Scalar::F64(1.0), Scalar::F64(0.0)), None);
         let odd = scale(Scalar::F64(0.001_525_902_189_669_64), Scalar::F64(0.0));
         assert!(matches!(odd, Some(Scale::Float { single: false, .. })), "{odd:?}");

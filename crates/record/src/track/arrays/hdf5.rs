@@ -3,7 +3,9 @@
 use std::collections::{BTreeSet, HashMap};
 
 use hdf5_reader::group::Group;
-use hdf5_reader::{Attribute as Stored, CompoundField, Dataset, Datatype, Hdf5File, OpenOptions, StringSize, VarLenKind};
+use hdf5_reader::{
+    Attribute as Stored, CompoundField, Dataset, Datatype, Hdf5File, OpenOptions, StringSize, VarLenKind,
+};
 use hdf5_reader::{ByteOrder, error::Error};
 
 use super::array::{Array, Axis, Bytes, Fills, Store, axes};
@@ -339,7 +341,9 @@ fn named_blocks(mut arrays: Vec<Array>, datasets: &[Dataset]) -> Vec<Array> {
         let Ok(names) = datasets[place].read_strings() else { continue };
         let group = items.rsplit_once('/').map_or("", |(group, _)| group).to_owned();
         let values = format!("{}_values", items.trim_end_matches("_items"));
-        let Some(at) = arrays.iter().position(|a| a.name == values && (1..=2).contains(&a.axes.len())) else { continue };
+        let Some(at) = arrays.iter().position(|a| a.name == values && (1..=2).contains(&a.axes.len())) else {
+            continue;
+        };
         let block = arrays.remove(at);
         let split = |(index, name): (usize, &String)| {
             let across = block.axes.get(1).map_or(0, |axis| axis.stride);

@@ -15,7 +15,9 @@ pub(super) fn is_matlab(bytes: &[u8]) -> bool {
 /// Why an array of Matlab is not read, where it is not.
 pub(super) fn unread(about: &Attributes) -> Option<&'static str> {
     if about.has("MATLAB_object_decode") {
-        return Some("an object, as tables and datetimes are: save its columns as vectors, times with datenum or posixtime");
+        return Some(
+            "an object, as tables and datetimes are: save its columns as vectors, times with datenum or posixtime",
+        );
     }
     if about.has("MATLAB_empty") {
         return Some("empty");

@@ -141,7 +141,11 @@ impl Tables {
         }
         let table = self.tables.swap_remove(at);
         said.extend(table.no_moments.iter().map(|NoMoments { name, units }| {
-            format!("`{}`: `{}` are no dates of the usual calendar, and are read as numbers", printable(name), printable(units))
+            format!(
+                "`{}`: `{}` are no dates of the usual calendar, and are read as numbers",
+                printable(name),
+                printable(units)
+            )
         }));
         if !table.long_names.is_empty() {
             let one = |(name, long): &(String, String)| format!("`{}` is {}", printable(name), printable(long));
@@ -182,7 +186,8 @@ fn placed<'s>(store: &'s Store, unread: &mut Vec<(String, String)>) -> Vec<Place
             [first, second] => {
                 let order = if store.is_matlab { [1, 0] } else { [0, 1] };
                 let like = |keys: &[&Key]| order.into_iter().find(|axis| keys.contains(&&key(array, *axis)));
-                let longer = if first.length == second.length { order[0] } else { usize::from(second.length > first.length) };
+                let longer =
+                    if first.length == second.length { order[0] } else { usize::from(second.length > first.length) };
                 let rows = if array.table.is_some() { Some(0) } else { like(&timed).or_else(|| like(&known)) };
                 let rows = rows.unwrap_or(longer);
                 Some(rows).filter(|rows| array.axes[1 - rows].length <= FEW)
@@ -203,7 +208,8 @@ fn placed<'s>(store: &'s Store, unread: &mut Vec<(String, String)>) -> Vec<Place
 
 /// Arrays of one length that stand in groups with times of their own are tables of their own.
 fn by_group<'p, 's>(members: &[&'p Placed<'s>]) -> Vec<Vec<&'p Placed<'s>>> {
-    let timed: BTreeSet<&str> = members.iter().filter(|one| one.is_time()).map(|one| one.array.group.as_str()).collect();
+    let timed: BTreeSet<&str> =
+        members.iter().filter(|one| one.is_time()).map(|one| one.array.group.as_str()).collect();
     if timed.len() < 2 {
         return vec![members.to_vec()];
     }
@@ -253,8 +259,7 @@ impl Table {
         for index in 0..usize::try_from(count).unwrap_or(0) {
             let name = if beside.is_some() { format!("{}[{index}]", array.name) } else { array.name.clone() };
             let offset = array.offset + index * beside.map_or(0, |axis| axis.stride);
-            let (column, no_moments) =
-                Column::of(array, (name, offset), (axis.stride, axis.length), store.fills);
+            let (column, no_moments) = Column::of(array, (name, offset), (axis.stride, axis.length), store.fills);
             self.columns.push(column);
             self.no_moments.extend(no_moments);
         }

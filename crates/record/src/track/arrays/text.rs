@@ -8,13 +8,13 @@ use super::super::facts::Facts;
 use super::super::packing::{Opened, Stream};
 use super::super::printable;
 use super::array::{Bytes, Store};
+use super::cells;
 use super::cf_time::Stamp;
 use super::columns::{Column, Meaning};
 use super::errors::Trouble;
 use super::matlab::are_datenums;
 use super::scalar::Scalar;
 use super::tables::Chosen;
-use super::cells;
 use crate::memory::Share;
 
 /// Rows that are made into text at a time.

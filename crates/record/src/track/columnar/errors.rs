@@ -26,16 +26,14 @@ pub(super) fn damaged(what: &str) -> Unpackable {
 
 /// A file that is locked.
 pub(super) fn encrypted() -> Unpackable {
-    Unpackable::new(
-        "an encrypted Parquet file",
-        "write it again without encryption with the program that has its keys",
-    )
+    Unpackable::new("an encrypted Parquet file", "write it again without encryption with the program that has its keys")
 }
 
 /// A file some of whose columns are locked.
 pub(super) fn encrypted_columns(names: &[String]) -> Unpackable {
     const TOLD: usize = 8;
-    let told: Vec<String> = names.iter().take(TOLD).map(|name| format!("`{}`", super::super::printable(name))).collect();
+    let told: Vec<String> =
+        names.iter().take(TOLD).map(|name| format!("`{}`", super::super::printable(name))).collect();
     let more = if names.len() > TOLD { ", …" } else { "" };
     Unpackable::new(
         format!("a Parquet file with encrypted columns: {}{more}", told.join(", ")),

@@ -27,6 +27,7 @@ pub(super) const FORMAT: Format = Format {
         })
     },
     sheet: Some(sheet),
+    utc: true,
     ..PLAIN
 };
 

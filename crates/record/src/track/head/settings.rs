@@ -39,7 +39,10 @@ mod tests {
         assert_eq!(columns_of(|i| format!("{},,{i},0.5,", beside(i))), 3);
         // Columns of the record that begin late, end early, or hold texts all the way.
         assert_eq!(columns_of(|i| format!("{},{i},0.5", if i > 90 { "3" } else { "" })), 0);
-        assert_eq!(columns_of(|i| format!("{},{},{i}", if i < 10 { "3" } else { "" }, if i < 10 { "4" } else { "" })), 0);
+        assert_eq!(
+            columns_of(|i| format!("{},{},{i}", if i < 10 { "3" } else { "" }, if i < 10 { "4" } else { "" })),
+            0
+        );
         assert_eq!(columns_of(|i| format!("a,2,{i}")), 0);
         assert_eq!(columns_of(|i| format!("{},,{i}", if i == 0 { "note" } else { "" })), 0);
     }

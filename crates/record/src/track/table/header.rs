@@ -110,7 +110,8 @@ fn heading_among(lines: &[Line], first: usize, of: &Lines<'_>, reading: &Reading
                 Some((names_at, below)) => {
                     // Units that nobody knows, below names of which one is that of a time.
                     let right_above = first == names_at + 1;
-                    let beside = right_above && rows.first().is_some_and(|row| are_settings(&cells, below, row, reading));
+                    let beside =
+                        right_above && rows.first().is_some_and(|row| are_settings(&cells, below, row, reading));
                     let later = heading.units_at.is_none()
                         && (beside || are_units(&cells, below, line, &lines[*names_at], right_above));
                     if later {

@@ -193,7 +193,9 @@ pub(crate) fn number_form(numbers: &Numbers<'_>) -> (TimeFormat, Option<String>)
         return assumed(TimeFormat::Parts(vec![super::Part::Clock]));
     }
     match counted(numbers, numbers.unit) {
-        TimeFormat::Seconds if numbers.unit.is_none() && rank >= 3 && decimals == 0 && are_microseconds(values, step) => {
+        TimeFormat::Seconds
+            if numbers.unit.is_none() && rank >= 3 && decimals == 0 && are_microseconds(values, step) =>
+        {
             assumed(TimeFormat::Elapsed { unit_ns: 1_000 })
         }
         format => (format, None),

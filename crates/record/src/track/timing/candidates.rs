@@ -310,8 +310,10 @@ impl<'a> Candidates<'a> {
         }
         let mut timing = self.number_timing(column);
         let unit = timing.format.words();
-        timing.said =
-            vec![format!("`{}` goes forward evenly and is taken as the time ({unit})", printable(&self.head.names[column]))];
+        timing.said = vec![format!(
+            "`{}` goes forward evenly and is taken as the time ({unit})",
+            printable(&self.head.names[column])
+        )];
         Some(timing)
     }
 

@@ -54,7 +54,9 @@ pub(super) fn with_column(head: &Head, timing: Timing) -> Timing {
     told.dedup();
     let (name, told) = (printable(&head.names[zone]), printable(&told.join(", ")));
     let mut said = timing.said;
-    said.push(format!("clocks are those of the zone in `{name}` ({told}) in each row (--time-zone names another zone)"));
+    said.push(format!(
+        "clocks are those of the zone in `{name}` ({told}) in each row (--time-zone names another zone)"
+    ));
     Timing { said, ..Timing::of_parts(columns, parts) }
 }
 
@@ -64,7 +66,9 @@ fn tells_zones(head: &Head, column: usize, timing: &Timing) -> bool {
     let words: Vec<String> = names::words(&head.names[column]).iter().map(|word| word.to_lowercase()).collect();
     let has = |wanted: &[&str]| words.iter().any(|word| wanted.contains(&word.as_str()));
     let named = has(&["tz", "timezone", "tzone", "zeitzone"])
-        || name.contains("time zone") || name.contains("time_zone") || words == ["zone"]
+        || name.contains("time zone")
+        || name.contains("time_zone")
+        || words == ["zone"]
         || has(&["utc", "gmt"]) && has(&["offset"]);
     let beside = timing.all_columns().any(|c| c.abs_diff(column) == 1);
     let cells = head.column(column);

@@ -131,6 +131,13 @@ def matlab(path):
         f.write(header.ljust(124) + b"\x00\x02IM")
 
 
+def sparse(path):
+    """HDF5: eight terabytes of which nothing was written."""
+    with h5py.File(path, "w") as f:
+        f.create_dataset("t", shape=(1 << 40,), chunks=(1024,), dtype="f8")
+        f.create_dataset("x", shape=(1 << 40,), chunks=(1024,), dtype="f8")
+
+
 def main(folder):
     for make, name in [
         (classic, "classic.nc"),
@@ -140,6 +147,7 @@ def main(folder):
         (latest, "latest.h5"),
         (table, "table.h5"),
         (matlab, "matlab.mat"),
+        (sparse, "sparse.h5"),
     ]:
         make(Path(folder) / name)
 
