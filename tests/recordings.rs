@@ -194,7 +194,7 @@ fn originals_are_read_in_their_own_form() {
     }
     let air = loaded(&folder.join("air_quality_us_dates_tail.csv"));
     assert_eq!(air.time.format, TimeFormat::YearLast { day_first: false });
-    assert_eq!(air.time.full_label(7.0 * 3600.0), "2005-03-24 00:00:00 UTC");
+    assert_eq!(air.time.full_label(7.0 * 3600.0), "2005-03-24 00:00:00");
     let hourly = air.time.seconds.windows(2).all(|w| w[1] - w[0] == 3600.0);
     assert!(hourly && air.faults == wildpoint::track::Faults::default());
     let salinity = loaded(&folder.join("ioos_salinity_head.csv"));
