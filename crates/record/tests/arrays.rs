@@ -1,6 +1,11 @@
 //! Files that h5py and netCDF4 wrote (`data/arrays/make.py` says what is in them), and broken ones.
 
 #![cfg(feature = "hdf5")]
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    reason = "a failed expectation is a failed test, and what is skipped is said"
+)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

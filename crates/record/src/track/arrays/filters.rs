@@ -61,10 +61,10 @@ fn lzf(packed: &[u8], most: usize) -> Option<Vec<u8>> {
                 length += usize::from(bytes.next()?);
             }
             let back = ((control & 0x1f) << 8 | usize::from(bytes.next()?)) + 1;
-            let mut from = out.len().checked_sub(back)?;
-            for _ in 0..length + 2 {
-                out.push(out[from]);
-                from += 1;
+            let from = out.len().checked_sub(back)?;
+            // What is copied may reach into what has been copied just now.
+            for at in from..from + length + 2 {
+                out.push(out[at]);
             }
         }
         if out.len() > most {

@@ -263,10 +263,10 @@ impl Table {
             self.columns.push(column);
             self.no_moments.extend(no_moments);
         }
-        if let Some(long) = array.attributes.text("long_name").filter(|long| !long.is_empty()) {
-            if !long.eq_ignore_ascii_case(array.base()) && !one.has_moments() {
-                self.long_names.push((array.name.clone(), long.to_owned()));
-            }
+        let says_more =
+            |long: &&str| !long.is_empty() && !long.eq_ignore_ascii_case(array.base()) && !one.has_moments();
+        if let Some(long) = array.attributes.text("long_name").filter(says_more) {
+            self.long_names.push((array.name.clone(), long.to_owned()));
         }
     }
 

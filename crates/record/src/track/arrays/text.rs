@@ -1,6 +1,7 @@
 //! A table of arrays as CSV text: a line of names, and a line for each row. A value that is missing is an empty cell.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::io::{self, Read};
 
 use super::super::columnar::{is_comment, name_cell};
@@ -30,9 +31,9 @@ pub(super) fn text<'a>(
     let mut columns = table.columns;
     let mut stored = BTreeMap::new();
     for column in &columns {
-        if !stored.contains_key(&column.place) {
+        if let Entry::Vacant(place) = stored.entry(column.place) {
             share.add(store.bytes.length(column.place)?)?;
-            stored.insert(column.place, store.bytes.read(column.place)?);
+            place.insert(store.bytes.read(column.place)?);
         }
     }
     for column in &mut columns {
