@@ -35,7 +35,9 @@ impl Date {
     /// Days since 1970-01-01; none when there is no such date.
     pub(crate) fn days(self) -> Option<i64> {
         let Self { year, month, day } = self;
-        if !(1..=12).contains(&month) || day < 1 || day > days_in(year, month) {
+        // No record is of other years, and days of all of them fit their integer.
+        const YEARS: std::ops::RangeInclusive<i64> = -1_000_000..=1_000_000;
+        if !YEARS.contains(&year) || !(1..=12).contains(&month) || day < 1 || day > days_in(year, month) {
             return None;
         }
         let year = if month <= 2 { year - 1 } else { year };
@@ -81,5 +83,13 @@ mod tests {
         for (year, month, day) in [(2019, 2, 29), (1900, 2, 29), (2019, 13, 1), (2019, 4, 31), (2019, 0, 1)] {
             assert_eq!(Date { year, month, day }.days(), None);
         }
+    }
+
+    #[test]
+    fn a_year_that_no_record_is_of_has_no_days() {
+        for year in [i64::MAX, 1_573_495_025_000_000_001, i64::MIN] {
+            assert_eq!(Date { year, month: 1, day: 1 }.days(), None);
+        }
+        assert!(Date { year: -4712, month: 1, day: 1 }.days().is_some());
     }
 }
