@@ -93,7 +93,7 @@ fn what(advice: &Advice, seed: u64) -> String {
 fn table(methods: &[Measured], unit: &str) -> String {
     let kinds: Vec<Kind> = methods.first().map_or(Vec::new(), |m| m.kinds.iter().map(|c| c.kind).collect());
     let mut header = row(["95 % found from"]);
-    header.extend(kinds.iter().map(|kind| kind.word().replace("run of ", "x")));
+    header.extend(kinds.iter().map(|kind| kind.short().to_owned()));
     header.extend(row(["found %", "flags", "alone", "repair", "ms"]));
     let mut rows = vec![header];
     for measured in methods {
@@ -107,7 +107,7 @@ fn table(methods: &[Measured], unit: &str) -> String {
     }
     let unit = if unit.is_empty() { "channel units".to_owned() } else { printable(unit) };
     let legend = format!(
-        "sizes and repair errors in {unit}; x2, x5, x10: runs of this many samples; -: none of the sizes; alone: flags of fewer \
+        "sizes and repair errors in {unit}; run 2: runs of 2 samples; -: none of the sizes; alone: flags of fewer \
          than half of the methods\n"
     );
     columns(&rows) + &legend

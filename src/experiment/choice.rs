@@ -100,7 +100,7 @@ pub static CHOICES: &[Choice] = &[
         ],
     },
     Choice {
-        outliers: "isolated, patches",
+        outliers: "isolated, runs",
         run: "1 .. 10",
         record: "4 to 20 samples, or blocks of them",
         real_time: false,
@@ -113,7 +113,7 @@ pub static CHOICES: &[Choice] = &[
         ],
     },
     Choice {
-        outliers: "isolated, patches, varying",
+        outliers: "isolated, runs, varying",
         run: "1 .. 10",
         record: "20 to 100 samples",
         real_time: false,
@@ -128,19 +128,19 @@ pub static CHOICES: &[Choice] = &[
         )],
     },
     Choice {
-        outliers: "patches, varying",
+        outliers: "runs, varying",
         run: "10",
         record: "much data, few isolated ones",
         real_time: false,
         method: "odd-even",
-        document: "[001] for patches and varying ones, with false alarms",
+        document: "[001] for runs and varying ones, with false alarms",
         measured: &[
             of(OFFLINE, &["odd-even"], 3, 89.0, ("patch", " %")),
             of(OFFLINE, &["odd-even"], 4, 50.0, ("varying", " %")),
         ],
     },
     Choice {
-        outliers: "isolated, patches",
+        outliers: "isolated, runs",
         run: "up to a third of the window",
         record: "even sampling, windows of 10 to 50",
         real_time: false,
@@ -152,7 +152,7 @@ pub static CHOICES: &[Choice] = &[
         ],
     },
     Choice {
-        outliers: "isolated, patches",
+        outliers: "isolated, runs",
         run: "up to max_run",
         record: "fast sampling, lost samples, steps",
         real_time: false,
@@ -164,12 +164,12 @@ pub static CHOICES: &[Choice] = &[
         ],
     },
     Choice {
-        outliers: "isolated, patches",
+        outliers: "isolated, runs",
         run: "5 .. 8",
         record: "manoeuvres, one channel or several",
         real_time: false,
         method: "kalman",
-        document: "[004] removes both, and the fill keeps the filter on the patch",
+        document: "[004] removes both, and the fill keeps the filter through the run",
         measured: &[
             of("gan", &["defaults, polynomial infill"], 1, 8.0, ("patch", " of 8")),
             of("gan", &["defaults, polynomial infill"], 3, 1.2, ("false", " of 491")),
@@ -188,12 +188,12 @@ pub static CHOICES: &[Choice] = &[
         ],
     },
     Choice {
-        outliers: "isolated, patches, varying together",
+        outliers: "isolated, runs, varying together",
         run: "1 .. 10",
         record: "noise that changes",
         real_time: true,
         method: "adaptive",
-        document: "[001] the best on patches and where all kinds mix",
+        document: "[001] the best on runs and where all kinds mix",
         measured: &[
             of(REALTIME, &["adaptive (ours)"], 1, 43.0, ("found", " %")),
             of(REALTIME, &["alpha-beta-gamma (ours)"], 1, 75.0, ("alpha-beta-gamma", " %")),
@@ -213,7 +213,7 @@ pub static CHOICES: &[Choice] = &[
         ],
     },
     Choice {
-        outliers: "isolated, patches, varying",
+        outliers: "isolated, runs, varying",
         run: "up to half the window",
         record: "a second channel measures the rate",
         real_time: true,

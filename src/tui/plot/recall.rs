@@ -4,7 +4,6 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use super::GUTTER;
 use super::glyphs::Glyphs;
 use super::paint::{Paint, right_of_margin};
 use crate::session::detectability::{Curve, OF_ALL, SIZES};
@@ -97,9 +96,7 @@ impl Widget for RecallPlot<'_> {
         // The last row has the sizes where there is one left.
         let labels = usize::from(area.height) > rows.len();
         for (row, (curve, _)) in (0..area.height).zip(&rows) {
-            let room = usize::from(GUTTER) - 1;
-            let name: String = curve.kind.word().chars().take(room).collect();
-            paint.margin(row, &name, self.glyphs.vertical(), self.theme.text);
+            paint.margin(row, curve.kind.short(), self.glyphs.vertical(), self.theme.text);
         }
         let mut paint = Paint::new(buffer, right_of_margin(area));
         (0..paint.height()).for_each(|row| paint.clear_row(row));

@@ -130,12 +130,15 @@ fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) -> Vec<
         PickerKind::Rate => "channel that measures the rate",
         PickerKind::Second => "channel beside the one on the screen",
     };
+    let methods = picker.kind == PickerKind::Method;
+    let about = if methods { detectability::about_list(model) } else { None };
+    let title = about.map_or_else(|| title.to_owned(), |about| format!("{title}: {about}"));
     let found = narrowed(model, picker);
     let groups = found.windows(2).filter(|w| w[0].group != w[1].group).count();
     let advises = picker.kind == PickerKind::Method;
     let below = if advises { ADVICE } else { 0 };
     let wanted = u16::try_from(found.len() + groups + 5).unwrap_or(u16::MAX).saturating_add(below);
-    let inside = popup(model, title, (76, wanted.max(8)), area, buffer);
+    let inside = popup(model, &title, (76, wanted.max(8)), area, buffer);
     typed(model, "filter: ", &picker.filter, inside.width)
         .render(Rect { height: inside.height.min(1), ..inside }, buffer);
     // The list comes first.
@@ -149,10 +152,8 @@ fn list(model: &Model, picker: &Picker, area: Rect, buffer: &mut Buffer) -> Vec<
         }
     }
     let mut lines = Vec::new();
-    let methods = picker.kind == PickerKind::Method;
-    if methods && let Some(about) = detectability::about_list(model) {
-        let head = if model.state().studied.is_some() { detectability::CELLS } else { "" };
-        lines.push((Line::styled(format!("{:23}{head:22}{about}", ""), theme.dim), None));
+    if methods && model.state().studied.is_some() {
+        lines.push((Line::styled(format!("{:23}{}", "", detectability::CELLS), theme.dim), None));
     }
     let (mut group, mut choice_row) = ("", 0);
     for (i, entry) in found.iter().enumerate() {

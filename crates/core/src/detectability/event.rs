@@ -44,6 +44,17 @@ impl Kind {
         }
     }
 
+    /// How it is called where there is little room: at most seven characters.
+    #[must_use]
+    pub fn short(self) -> &'static str {
+        match self {
+            Self::RunOf2 => "run 2",
+            Self::RunOf5 => "run 5",
+            Self::RunOf10 => "run 10",
+            other => other.word(),
+        }
+    }
+
     /// How several are called in a sentence.
     #[must_use]
     pub fn plural(self) -> &'static str {

@@ -26,7 +26,7 @@ static PARAMS: &[Param] = &[
 
 const K: Param = shared::K.with_default(Value::Real(3.5)).with_paper(Some(Paper::printed(
     Value::Real(1.5),
-    "[001] decides at its C of 1.5 scales, which flags one good sample in ten and more",
+    "[001] decides at its C of 1.5 sigma, which flags one good sample in ten and more",
 )));
 
 const WINDOW: Param = Param {

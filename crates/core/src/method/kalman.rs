@@ -90,7 +90,7 @@ const GATE_CAP: Param = Param {
     default: Value::Real(2.0),
     paper: Some(Paper::printed(
         Value::Word("off"),
-        "the gate of a filter that coasts opens until the patch itself is let in",
+        "the gate of a filter that coasts opens until the run of outliers itself is let in",
     )),
     matters: always,
 };

@@ -39,7 +39,7 @@ const WINDOW: Param = Param {
     unit: "samples",
     kind: Kind::Whole { min: 4, max: 1001, step: 2 },
     default: Value::Whole(401),
-    paper: Some(Paper::open(Value::Whole(31), "a patch of half the window or more is not seen; [001] gives no window")),
+    paper: Some(Paper::open(Value::Whole(31), "a run of half the window or more is not seen; [001] gives no window")),
     matters: always,
 };
 

@@ -81,7 +81,7 @@ pub const WINDOW: Param = Param {
     default: Value::Whole(21),
     paper: Some(Paper::printed(
         Value::Whole(10),
-        "a residual test whose scale holds the tested sample reaches no 3 scales in a window of 10",
+        "a residual test whose scale holds the tested sample reaches no 3 sigma in a window of 10",
     )),
     matters: always,
 };

@@ -151,7 +151,7 @@ const START_LIMIT: Param = Param {
 
 const MAX_RUN: Param = shared::MAX_RUN.with_default(Value::Whole(10)).with_paper(Some(Paper::printed(
     Value::Whole(5),
-    "a patch longer than this is taken for a change of the track; [000] sets 5 for its example and leaves it to the case",
+    "a run longer than this is taken for a change of the track; [000] sets 5 for its example and leaves it to the case",
 )));
 
 const DIRECTION: Param = Param {
