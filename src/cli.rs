@@ -166,6 +166,7 @@ pub enum Command {
     #[command(before_help = "Example: wildpoint compare data/demo.csv --channel vx_mps")]
     Compare(CompareArgs),
     /// Which method finds most on this record, measured on the record itself.
+    #[command(before_help = "Example: wildpoint advise data/demo.csv --channel vx_mps")]
     #[command(long_about = advise::ADVISE, mut_arg("channel", one_channel))]
     Advise(AdviseArgs),
     /// Judge samples from standard input as they arrive.

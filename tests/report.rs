@@ -294,8 +294,8 @@ fn a_reproduction_is_drawn_as_a_page_for_each_document() {
     let drawn = |word: &&str| page.matches(&format!("\">{word}</td>")).count();
     assert_eq!(words.iter().map(told).collect::<Vec<_>>(), words.iter().map(drawn).collect::<Vec<_>>());
     assert!(words.iter().map(told).sum::<usize>() >= 6, "{text}");
-    // Three results, each with its record, its flags and its residual.
-    assert_eq!((page.matches("<h2>[004]</h2>").count(), page.matches("<figure>").count()), (1, 9));
+    // Three results, each with its record, its flags, its residual before and after the repair, and a histogram.
+    assert_eq!((page.matches("<h2>[004]</h2>").count(), page.matches("<figure>").count()), (1, 15));
     assert!(!page.contains("<script") && !page.contains(" src="), "nothing runs, nothing is fetched");
     let curves = folder.done("reproduce qin --runs 2 --json --report qin.html");
     assert!(curves.starts_with('[') && folder.text("qin.html").matches("class=\"curve ").count() == 24);

@@ -155,7 +155,6 @@ impl Outside {
                     self.advisor.cancel();
                     self.advising = false;
                     self.study_worker.cancel();
-                    model.studying = None;
                     model.awaited = Some(self.worker.submit(Judge::new(model, plan).with_steps(model)));
                 }
                 Effect::Advise(plan) => {

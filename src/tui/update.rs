@@ -55,7 +55,10 @@ pub fn update(model: &mut Model, message: Message) -> Vec<Effect> {
     let mut effects = take(model, message);
     queue::keep_in_sight(model);
     let analyses = effects.iter().any(|effect| matches!(effect, Effect::Analyse(_)));
-    if !analyses {
+    if analyses {
+        // What the user waits for goes before it.
+        model.studying = None;
+    } else {
         effects.extend(detectability::follow(model));
     }
     effects

@@ -162,7 +162,7 @@ mod tests {
         let seen = Glance { source, options: LoadOptions::default() }.look(&Stop::never()).unwrap();
         assert_eq!(seen.lines[0], "5 rows, 3 columns");
         assert!(seen.lines[2].starts_with("time t_s (seconds), from 0"), "{:?}", seen.lines);
-        assert!(seen.lines.iter().any(|l| l == "channels: alt (m) [m]"), "{:?}", seen.lines);
+        assert!(seen.lines.iter().any(|l| l == "channels: alt (m)"), "{:?}", seen.lines);
         assert!(seen.warnings.iter().any(|w| w.starts_with("1 repeated time (line 4")), "{:?}", seen.warnings);
         assert_eq!(seen.table[1], ["time", "number", "text"]);
         assert_eq!(seen.table[2], ["0", "1.5", "a"]);

@@ -106,7 +106,7 @@ fn a_stopped_study_counts_nothing() {
     let series = Series::new(&t, &y);
     let mut study = Study::new((&series).into(), vec![Setup::standard()], 1, &Stop::never()).unwrap();
     let gone = Stop::asking(|| true);
-    assert!(matches!(study.advance(&gone), Err(crate::Error::Stopped)));
+    assert!(matches!(study.advance(&gone), Err(crate::error::Error::Stopped)));
     assert_eq!(study.rounds(), Rounds::default());
     assert!(study.advance(&Stop::never()).unwrap());
     assert_eq!(study.rounds().done, 1);

@@ -40,7 +40,9 @@ impl TimeAxis {
     fn digits_of(&self, ns: i128) -> usize {
         if let Some(unit) = self.number_unit().filter(|unit| *unit < SECOND) {
             let tenths = |digits: &usize| 10_i128.pow(u32::try_from(*digits).unwrap_or(0));
-            return (0..6).find(|digits| ns * tenths(digits) % i128::from(unit) == 0).unwrap_or(6);
+            // Times that no record has would overflow.
+            let whole = |digits: &usize| ns.checked_mul(tenths(digits)).is_some_and(|n| n % i128::from(unit) == 0);
+            return (0..6).find(whole).unwrap_or(6);
         }
         let step = self.seconds.windows(2).map(|pair| pair[1] - pair[0]).find(|step| *step > 0.0);
         let most = if step.is_some_and(|step| step < 1e-5) { MOST_DECIMALS } else { 6 };
