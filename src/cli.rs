@@ -1,18 +1,18 @@
 //! The command line: what can be typed, and what it means.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::error::{Error, Result};
 use crate::method::shared::MAX_GAP;
 use crate::repair;
-use crate::session::{DEFAULT_METHOD, Preset, SCHEMES, Scheme, Setup, method_of_id};
-use crate::track::{DASH, Delimiter, Encoding, LoadOptions, Pattern, Rules, TimeUnit, Worded};
+use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
 
 mod advise;
 mod experiments;
+mod load;
+mod outputs;
 mod parse;
 mod prepare;
 mod screen;
@@ -20,6 +20,8 @@ mod tools;
 
 pub use advise::AdviseArgs;
 pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
+pub use load::{DateOrder, Load};
+pub use outputs::OutputArgs;
 use parse::{memory_size, pair, size};
 pub use prepare::PrepareArgs;
 pub use screen::{Color, ConfigArgs, Glyphs};
@@ -235,114 +237,6 @@ impl Command {
     }
 }
 
-/// How to load a record.
-#[derive(Debug, Clone, Default, Args)]
-pub struct Load {
-    /// Time column, or several separated by commas (`date,time` or `year,month,day,hour`) [default: the column that looks
-    /// like time, otherwise the sample number].
-    #[arg(long, value_name = "COLUMN")]
-    pub time: Option<String>,
-    /// Channel to process; repeatable [default: every column of measurements; `inspect` says why a column is not one].
-    #[arg(long, value_name = "COLUMN")]
-    pub channel: Vec<String>,
-    /// Column with the track id (satellite, aircraft, station), if the table holds several tracks. Each track is judged
-    /// separately, with its own times. Its channels are named CHANNEL@ID; --channel CHANNEL takes those of all tracks.
-    #[arg(long, value_name = "COLUMN")]
-    pub track: Option<String>,
-    /// Column in which 1 marks a true outlier, and 0 any other sample.
-    #[arg(long, value_name = "COLUMN")]
-    pub truth: Option<String>,
-    /// Cell text for a missing value; repeatable, besides empty, NaN, NA, null and -.
-    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
-    pub missing: Vec<String>,
-    /// Field separator [default: detected].
-    #[arg(long, value_name = "WHAT", value_parser = worded::<Delimiter>())]
-    pub delimiter: Option<Delimiter>,
-    /// Text encoding, where no byte order mark gives it [default: UTF-8, or Latin-1 (Windows-1252) where the text is
-    /// not UTF-8].
-    #[arg(long, value_name = "WHICH", value_parser = worded::<Encoding>())]
-    pub encoding: Option<Encoding>,
-    /// Unit of numeric times [default: the one in the column name, otherwise seconds].
-    #[arg(long, value_name = "UNIT", value_parser = worded::<TimeUnit>())]
-    pub time_unit: Option<TimeUnit>,
-    /// Numbers have a decimal comma [default: detected].
-    #[arg(long)]
-    pub decimal_comma: bool,
-    /// The first line is data, not column names [default: detected].
-    #[arg(long)]
-    pub no_header: bool,
-    /// Quotes are ordinary characters.
-    #[arg(long)]
-    pub no_quotes: bool,
-    /// Order of dates like 1/2/2005, where the file does not show it.
-    #[arg(long, value_enum, value_name = "ORDER")]
-    pub dates: Option<DateOrder>,
-    /// Time format: %d.%m.%Y %H:%M:%S%.f (%j day of the year, %b month, %p AM/PM, %z zone) [default: detected].
-    #[arg(long, value_name = "PATTERN", value_parser = pattern)]
-    pub time_format: Option<Pattern>,
-    /// Time zone of times without one, like Europe/Berlin or +01:00 [default: UTC].
-    #[arg(long, value_name = "ZONE")]
-    pub time_zone: Option<String>,
-    /// Line (from 1) with the column names [default: detected from the rows below it].
-    #[arg(long, value_name = "N", value_parser = from_one)]
-    pub header_line: Option<usize>,
-    /// Lines to skip at the start of the file.
-    #[arg(long, value_name = "N")]
-    pub skip: Option<usize>,
-    /// Line (from 1) with the units of the columns.
-    #[arg(long, value_name = "N", value_parser = from_one)]
-    pub units_line: Option<usize>,
-    /// Prefix of comment lines, besides #, % and //.
-    #[arg(long, value_name = "TEXT", value_parser = mark)]
-    pub comment: Option<String>,
-    /// Column names, separated by commas, replacing those of the file; an empty one keeps the name.
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    pub names: Vec<String>,
-    /// Which table to read, if the file has several (from 1) [default: the longest].
-    #[arg(long, value_name = "N", value_parser = from_one)]
-    pub table: Option<usize>,
-}
-
-fn pattern(text: &str) -> std::result::Result<Pattern, String> {
-    Pattern::new(text).map_err(|e| e.to_string())
-}
-
-fn from_one(text: &str) -> std::result::Result<usize, String> {
-    text.parse().ok().filter(|n| *n > 0).ok_or_else(|| "expected a whole number from 1".into())
-}
-
-fn mark(text: &str) -> std::result::Result<String, String> {
-    let fits = (1..=16).contains(&text.len());
-    if fits { Ok(text.to_owned()) } else { Err("expected 1 to 16 bytes".into()) }
-}
-
-/// One of the words for a value.
-fn worded<T: Worded>() -> impl TypedValueParser<Value = T> {
-    let words: Vec<&'static str> = T::WORDS.iter().map(|(word, _)| *word).collect();
-    PossibleValuesParser::new(words).try_map(|word| T::of_word(&word).ok_or("not one of the words"))
-}
-
-/// One of the schemes of flags.
-fn scheme() -> impl TypedValueParser<Value = &'static Scheme> {
-    PossibleValuesParser::new(SCHEMES.iter().map(|scheme| scheme.id))
-        .try_map(|id| Scheme::of(&id).ok_or("not one of the schemes"))
-}
-
-fn scheme_help() -> String {
-    let schemes: Vec<String> = SCHEMES.iter().map(|scheme| format!("{} ({})", scheme.id, scheme.about())).collect();
-    let what = "Add columns of flags at the right of the cleaned file, COLUMN_flag for each judged column";
-    format!("{what}: {}", schemes.join("; "))
-}
-
-/// How dates with the year last are meant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum DateOrder {
-    /// 1/2/2005 is in February.
-    DayFirst,
-    /// 1/2/2005 is in January.
-    MonthFirst,
-}
-
 /// How to load and judge a record.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Shared {
@@ -386,70 +280,6 @@ pub struct Shared {
     pub threads: Option<usize>,
 }
 
-/// What to write, and how.
-#[derive(Debug, Clone, Default, Args)]
-pub struct OutputArgs {
-    /// Write the cleaned file: the input with outliers repaired or removed, all other bytes unchanged. A name that ends in
-    /// .parquet writes Parquet.
-    #[arg(short, long, value_name = "CLEANED")]
-    pub output: Option<PathBuf>,
-    /// Columns of flags in the cleaned file.
-    #[arg(long, value_name = "SCHEME", requires = "output", value_parser = scheme(), help = scheme_help())]
-    pub flag_columns: Option<&'static Scheme>,
-    /// Write only the changed cells: row, time, channel, old and new text, verdict, and what flagged it (CSV).
-    #[arg(long, value_name = "CHANGED")]
-    pub changed: Option<PathBuf>,
-    /// Write the audit table: every flag with its evidence (CSV).
-    #[arg(long, value_name = "FLAGS")]
-    pub flags: Option<PathBuf>,
-    /// Write a row for every sample (CSV).
-    #[arg(long, value_name = "DIAG")]
-    pub diagnostics: Option<PathBuf>,
-    /// Write a report with pictures: one HTML file (.html) or one Markdown file (.md).
-    #[arg(long, value_name = "REPORT")]
-    pub report: Option<PathBuf>,
-    /// Name of the analyst, for the report [default: `analyst` in the configuration].
-    #[arg(long, value_name = "NAME", requires = "report")]
-    pub analyst: Option<String>,
-    /// Do all the work and report what would be written, but write nothing.
-    #[arg(long)]
-    pub dry_run: bool,
-    /// Overwrite existing outputs (never the input).
-    #[arg(long)]
-    pub force: bool,
-    /// Print a summary in JSON.
-    #[arg(long)]
-    pub json: bool,
-    /// Print nothing but errors.
-    #[arg(short, long)]
-    pub quiet: bool,
-}
-
-impl OutputArgs {
-    /// True when one of the outputs is standard output.
-    #[must_use]
-    pub fn takes_standard_output(&self) -> bool {
-        self.on_standard_output(None) > 0
-    }
-
-    /// That standard output is one thing at most.
-    ///
-    /// # Errors
-    /// [`Error::Usage`] when it is not.
-    pub fn check_standard_output(&self, session: Option<&Path>) -> Result<()> {
-        match self.on_standard_output(session) + usize::from(self.json) {
-            0 | 1 => Ok(()),
-            _ => Err(Error::usage("only one output can be `-` (standard output)", "give the others file names")),
-        }
-    }
-
-    fn on_standard_output(&self, session: Option<&Path>) -> usize {
-        let named =
-            [&self.output, &self.changed, &self.flags, &self.diagnostics, &self.report].map(|path| path.as_deref());
-        named.into_iter().chain([session]).flatten().filter(|path| *path == Path::new(DASH)).count()
-    }
-}
-
 /// Which values a method starts with.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum PresetArg {
@@ -458,37 +288,6 @@ pub enum PresetArg {
     Default,
     /// Values of the source documents.
     Paper,
-}
-
-impl Load {
-    /// What the loader needs; the rate channel is loaded beside the channels that were named.
-    #[must_use]
-    pub fn options(&self, rate: Option<&str>) -> LoadOptions {
-        LoadOptions {
-            time: self.time.clone(),
-            channels: self.channel.clone(),
-            beside: rate.map(str::to_owned).into_iter().collect(),
-            truth: self.truth.clone(),
-            track: self.track.clone(),
-            missing: self.missing.clone(),
-            delimiter: self.delimiter,
-            encoding: self.encoding,
-            time_unit: self.time_unit,
-            decimal_comma: self.decimal_comma.then_some(true),
-            header: self.no_header.then_some(false),
-            quotes: self.no_quotes.then_some(false),
-            day_first: self.dates.map(|d| d == DateOrder::DayFirst),
-            time_format: self.time_format.clone(),
-            time_zone: self.time_zone.clone(),
-            header_line: self.header_line,
-            skip: self.skip,
-            units_line: self.units_line,
-            comment: self.comment.clone(),
-            names: self.names.clone(),
-            table: self.table,
-            rules: Rules::default(),
-        }
-    }
 }
 
 impl Shared {
