@@ -3,7 +3,7 @@
 
 use super::calendar::DAY;
 use super::multi_track::NOBODY;
-use super::order::UNREADABLE;
+use super::order::{UNREADABLE, increasing};
 use super::time::Zone;
 
 /// What was done to the moments of a record.
@@ -78,6 +78,9 @@ pub(crate) fn mend(moments: &mut [i64], about: About<'_>) -> Mended {
 
 /// True where every moment is after the one before, or equal to it: nearly every record.
 fn goes_forward(moments: &[i64], of_row: Option<&[u32]>) -> bool {
+    if of_row.is_none() && increasing(moments) {
+        return true;
+    }
     let mut last = i64::MIN;
     let mut fits = |moment: &i64| {
         let forward = *moment >= last;

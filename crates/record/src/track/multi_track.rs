@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::head::Head;
 use super::load::Again;
-use super::order::{Moments, UNREADABLE};
+use super::order::{Moments, UNREADABLE, increasing};
 use super::text::{decoded, path_of};
 use super::tokens::inner;
 use super::{Channel, ColumnKind, LoadOptions, Rules, Track, names, printable, rows};
@@ -74,7 +74,7 @@ pub(super) fn recognised(
 ) -> Result<Option<usize>> {
     let Some(Moments::Exact(moments)) = moments else { return Ok(None) };
     let few = |lost: usize| lost * 20 <= moments.len();
-    let lost = behind(moments.iter());
+    let lost = if increasing(moments) { 0 } else { behind(moments.iter()) };
     // Nearly every record goes forward, and is not looked at from its end.
     let lost = if few(lost) { lost } else { lost.min(behind(moments.iter().rev())) };
     if moments.len() < 8 {
