@@ -5,6 +5,7 @@
 
 pub mod batch;
 pub mod cli;
+mod clock;
 mod counted;
 pub mod experiment;
 pub mod job;

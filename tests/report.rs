@@ -182,7 +182,7 @@ fn with_notes() -> Folder {
     let folder = Folder::with_demo();
     folder.done("clean demo.csv --channel vx_mps --save-session s.toml -q");
     let decided = "decisions = [{ row = 61, time = \"61.0\", value = \"135.93\", verdict = \"outlier\", note = \"a glint, seen by \
-                   both radars and confirmed by telephone with the site\" }, { row = 91, time = \"91.0\", value = \"55.21\", \
+                   both radars and confirmed by telephone with the site\", by = \"A. Kim\", at = \"2026-01-02T03:04:05Z\" }, { row = 91, time = \"91.0\", value = \"55.21\", \
                    verdict = \"normal\", note = \"staging\" }]\nrepair = ";
     std::fs::write(folder.path("s.toml"), folder.text("s.toml").replacen("repair = ", decided, 1)).unwrap();
     folder
@@ -196,6 +196,10 @@ fn notes_are_below_their_rows_and_reports_are_signed() {
     assert!(html.contains("<p class=\"byline\">2026-01-01, M.Ito</p>"));
     for note in ["a glint, seen by both radars and confirmed by telephone with the site", "staging"] {
         assert!(html.contains(&format!("<td colspan=\"10\">note: {note}</td>")), "{note}");
+    }
+    // Who decided is not who makes the report.
+    for who in ["A. Kim, 2026-01-02 03:04 UTC", "analyst"] {
+        assert!(html.contains(&format!("<td data-name=\"decided by\">{who}</td>")), "{who}");
     }
     folder.done("replay s.toml --report r.md --analyst M.Ito -q");
     let markdown = folder.text("r.md");

@@ -8,7 +8,7 @@ use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
 use wildpoint::method::METHODS;
-use wildpoint::review::Ruling;
+use wildpoint::review::{Ruling, Signature};
 use wildpoint::session::{Edit, Plan, Session, Setup};
 use wildpoint::stop::Stop;
 use wildpoint::track::{LoadOptions, Source, load};
@@ -395,4 +395,25 @@ fn rows_of_the_queue_stay_where_they_are_when_a_flag_comes_above_them() {
     bench.keys("n");
     let unmarked = |lines: &[String]| rows(lines).iter().map(|l| l.replace('>', " ")).collect::<Vec<_>>();
     assert_eq!(unmarked(&after), unmarked(&queue(&bench)));
+}
+
+#[test]
+fn decisions_are_signed_and_whoever_decided_first_keeps_it() {
+    let mut bench = Bench::on(&record(600, &[100, 300]));
+    (bench.model.analyst, bench.model.now) = (Some("M. Ito".into()), Some(5));
+    bench.keys("na");
+    let signature = |bench: &Bench| bench.model.plan().decisions.get(99).map(|d| d.signature.clone());
+    let first = Signature { by: Some("M. Ito".into()), at: Some(5) };
+    assert_eq!(signature(&bench), Some(first.clone()));
+    // The same again, by another: nothing has changed, and there is nothing to undo but the first.
+    (bench.model.analyst, bench.model.now) = (Some("A. Kim".into()), Some(9));
+    bench.keys("pa");
+    assert_eq!((signature(&bench), bench.decisions(0).len()), (Some(first.clone()), 1));
+    bench.keys("pr");
+    let second = Signature { by: Some("A. Kim".into()), at: Some(9) };
+    assert_eq!((signature(&bench), bench.decisions(0)), (Some(second), vec![(100, Ruling::Normal)]));
+    bench.keys("p");
+    assert!(bench.frame().contains("by A. Kim, 1970-01-01 00:00 UTC"), "{}", bench.frame());
+    bench.keys("u");
+    assert_eq!(signature(&bench), Some(first));
 }

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::clock;
+
 /// What a report says of itself.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Byline {
@@ -14,14 +16,10 @@ pub struct Byline {
 }
 
 impl Byline {
-    /// Today, in UTC; the day of `SOURCE_DATE_EPOCH` where the environment has it, so that a report can be made again
-    /// to the same bytes.
+    /// Today, in UTC.
     #[must_use]
     pub fn today(analyst: Option<String>) -> Self {
-        let told = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|text| text.trim().parse().ok());
-        let told = told.and_then(|seconds| jiff::Timestamp::from_second(seconds).ok());
-        let now = told.unwrap_or_else(jiff::Timestamp::now);
-        let date = now.to_zoned(jiff::tz::TimeZone::UTC).date().to_string();
+        let date = clock::now().to_zoned(jiff::tz::TimeZone::UTC).date().to_string();
         Self { analyst: analyst.filter(|name| !name.trim().is_empty()), date, flags: None }
     }
 

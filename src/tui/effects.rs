@@ -20,6 +20,7 @@ use super::terminal::Screen;
 use super::update::update;
 use super::watch::Watch;
 use crate::error::Result;
+use crate::clock;
 use crate::job::Worker;
 
 /// How long a frame waits for the result of what the user did: as long as frames are apart by default.
@@ -142,6 +143,7 @@ impl Outside {
         self.journal.note(model);
         if saved {
             self.journal.saved(model);
+        model.now = Some(clock::now().as_second());
         }
         self.carry_out(model, screen, effects)
     }

@@ -17,7 +17,7 @@ use super::theme::Theme;
 use super::words;
 use crate::param::Param;
 use crate::repair;
-use crate::review::History;
+use crate::review::{History, Signature};
 use crate::session::{Edit, Plan, Session};
 use crate::track::{Channel, Series, Standing, Track};
 
@@ -74,7 +74,7 @@ pub struct Model {
     pub keys: Keys,
     /// Whether the mouse is the program's; otherwise the terminal selects text with it.
     pub mouse: bool,
-    /// The name of the analyst in reports.
+    /// The name of the analyst, in decisions and reports.
     pub analyst: Option<String>,
     /// The cell of the trace in which a button went down, until it comes up.
     pub pressed: Option<(u16, u16)>,
@@ -185,6 +185,7 @@ impl Model {
             jumped: None,
             awaited: None,
             review: Reviewing::default(),
+            now: None,
             lower: Lower::default(),
             second: Second::default(),
             polling: None,
@@ -234,6 +235,12 @@ impl Model {
     }
 
     /// The channel on the screen as it is in the track.
+    /// By whom and when a decision is made that is made now.
+    #[must_use]
+    pub fn signature(&self) -> Signature {
+        Signature { by: self.analyst.as_deref().map(Into::into), at: self.now }
+    }
+
     #[must_use]
     pub fn channel(&self) -> &Channel {
         &self.track.channels[self.state().channel]

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use wildpoint::method::{METHODS, Verdict};
 use wildpoint::param::{Kind, Numbers, Settings, Value};
-use wildpoint::review::{Decision, Ruling};
+use wildpoint::review::{Decision, Ruling, Signature};
 use wildpoint::session::{Analysed, Outcome, Preset, Session, Setup};
 use wildpoint::stop::Stop;
 use wildpoint::track::{
@@ -31,7 +31,9 @@ pub(super) fn body(data: &[u8]) {
         let rows = u32::try_from(track.rows).unwrap_or(0);
         for row in (0..rows).step_by(1 + usize::from(decided)) {
             let ruling = if row % 2 == 0 { Ruling::Outlier } else { Ruling::Normal };
-            session.plans[0].decisions.set(row, Some(Decision { ruling, note: String::new(), said: None }));
+            session.plans[0]
+                .decisions
+                .set(row, Some(Decision { ruling, note: String::new(), said: None, signature: Signature::default() }));
         }
     }
     judged(&session, &track);

@@ -2,6 +2,7 @@
 //! undoes and redoes.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::method::Verdict;
 
@@ -38,6 +39,15 @@ impl Ruling {
     }
 }
 
+/// By whom and when something was decided, as far as it is known.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Signature {
+    /// The name of the analyst.
+    pub by: Option<Arc<str>>,
+    /// Seconds since 1970-01-01 00:00 UTC.
+    pub at: Option<i64>,
+}
+
 /// A decision about one sample.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Decision {
@@ -48,6 +58,16 @@ pub struct Decision {
     /// What the method said when it was decided, where that is known: a decision that agreed with it then and does
     /// not now is a conflict. Not part of a saved session, whose method is the one it was decided under.
     pub said: Option<Verdict>,
+    /// By whom and when; nothing in a session of a program that did not record it.
+    pub signature: Signature,
+}
+
+impl Decision {
+    /// The decision itself: two that differ in nothing else say the same.
+    #[must_use]
+    pub fn says_the_same(&self, other: &Self) -> bool {
+        (self.ruling, &self.note) == (other.ruling, &other.note)
+    }
 }
 
 /// The decisions about one channel, by row (from 0).

@@ -1,7 +1,7 @@
 //! Results that were stepped to against results from nothing.
 
 use super::*;
-use crate::review::{Decision, Decisions};
+use crate::review::{Decision, Decisions, Signature};
 use crate::session::{Preset, Setup, detect, method_of_id, settle};
 use crate::stop::Stop;
 use crate::track::{LoadOptions, Samples, Source, Track, load};
@@ -60,7 +60,7 @@ proptest! {
                 "window" if id != "two-sided" => setup.set_text("window", &(5 + 2 * (amount % 9)).to_string()).unwrap(),
                 "decide" => {
                     let ruling = if amount % 2 == 0 { Ruling::Outlier } else { Ruling::Normal };
-                    decisions.set(amount * 2, Some(Decision { ruling, note: String::new(), said: None }));
+                    decisions.set(amount * 2, Some(Decision { ruling, note: String::new(), said: None, signature: Signature::default() }));
                 }
                 _ => {
                     let repairs = ["own", "linear", "polynomial", "remove"];

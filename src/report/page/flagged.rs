@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::method::Direction;
 use crate::session::flags::{Evidence, evidence};
 use crate::session::table::{time_text, walk};
-use crate::session::{Analysed, Session};
+use crate::session::{Analysed, Session, signature_words};
 use crate::track::{Track, number_text};
 
 /// Rows of a table at most.
@@ -104,7 +104,11 @@ impl Group {
         let said = |e: &Evidence| (e.verdict, e.decided, e.action(), e.run.map(|run| run.start));
         let by = |e: &Evidence| e.objected.as_ref().map(|o| o.by);
         self.all.last().is_some_and(|last| {
-            last.run.is_some() && said(last) == said(next) && by(last) == by(next) && last.note == next.note
+            let signed = |e: &Evidence| signature_words(&e.signature);
+            last.run.is_some()
+                && said(last) == said(next)
+                && by(last) == by(next)
+                && (last.note == next.note && signed(last) == signed(next))
         })
     }
 
@@ -133,7 +137,7 @@ impl Group {
             self.cleaned(),
             match (&first.objected, first.decided) {
                 (Some(o), false) => format!("{}: {}", o.by, o.evidence),
-                _ => first.decided_by().to_owned(),
+                _ => signature_words(&first.signature).unwrap_or_else(|| first.decided_by().to_owned()),
             },
         ]
     }

@@ -223,7 +223,7 @@ fn sample(track: &Track, channel: &str, row: u32) -> Option<[String; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::review::{Decision, Ruling};
+    use crate::review::{Decision, Ruling, Signature};
     use crate::track::LoadOptions;
     use crate::tui::plot::Glyphs;
     use crate::tui::theme::Theme;
@@ -245,7 +245,8 @@ mod tests {
         let mut model = opened(TEXT, LoadOptions::default(), None);
         assert!(!model.unsaved());
         model.session.plans[0].setup.set_text("k", "7").unwrap();
-        let decision = Decision { ruling: Ruling::Outlier, note: "glint".into(), said: None };
+        let decision =
+            Decision { ruling: Ruling::Outlier, note: "glint".into(), said: None, signature: Signature::default() };
         for row in [1, 2] {
             model.session.plans[0].decisions.set(row, Some(decision.clone()));
         }

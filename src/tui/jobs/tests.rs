@@ -1,13 +1,16 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::review::{Decision, Ruling};
+use crate::review::{Decision, Ruling, Signature};
 use crate::track::{LoadOptions, Source, faults, load};
 
 fn opened() -> (Track, Session) {
     let track = load(&Source::demo(), &LoadOptions::default()).unwrap();
     let mut session = Session::new(&track, LoadOptions::default(), &Setup::standard());
-    session.plans[0].decisions.set(60, Some(Decision { ruling: Ruling::Normal, note: "x".into(), said: None }));
+    session.plans[0].decisions.set(
+        60,
+        Some(Decision { ruling: Ruling::Normal, note: "x".into(), said: None, signature: Signature::default() }),
+    );
     (track, session)
 }
 

@@ -97,7 +97,7 @@ pub(super) fn epoch(model: &mut Model) -> Vec<Effect> {
         // What another channel's note says stays.
         let note = before.as_ref().map(|d| d.note.clone()).filter(|n| !n.is_empty()).unwrap_or_else(|| note.clone());
         if before.as_ref().is_none_or(|d| d.ruling != ruling) {
-            let after = Some(Decision { ruling, note, said });
+            let after = Some(Decision { ruling, note, said, signature: model.signature() });
             edits.push(Edit::Decide { plan, changes: vec![Change { row, before, after }] });
         }
     }

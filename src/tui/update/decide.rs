@@ -98,8 +98,19 @@ pub(super) fn change(model: &Model, position: usize, ruling: Option<Ruling>) -> 
     let waits = || waiting.map(|(_, _, note)| note.clone()).unwrap_or_default();
     let note = before.as_ref().map_or_else(waits, |d| d.note.clone());
     let said = model.state().drawn.as_ref().and_then(|d| d.outcome.detection.judged.verdict().get(position).copied());
-    let after = ruling.map(|ruling| Decision { ruling, note, said });
-    (before != after).then_some(Change { row, before, after })
+    let signature = model.signature();
+    let after = ruling.map(|ruling| Decision { ruling, note, said, signature });
+    changed(row, before, after)
+}
+
+/// The change of a decision; none where the new one says what the old one said. Whoever decided first keeps it.
+pub(super) fn changed(row: u32, before: Option<Decision>, after: Option<Decision>) -> Option<Change> {
+    let same = match (&before, &after) {
+        (Some(before), Some(after)) => before.says_the_same(after) && before.said == after.said,
+        (None, None) => true,
+        _ => false,
+    };
+    (!same).then_some(Change { row, before, after })
 }
 
 /// Makes decisions about the channel on the screen, one undo step.

@@ -4,8 +4,8 @@ use super::super::action::Action;
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Prompt, PromptKind, Tone, Unit};
 use super::commit;
-use super::decide::flags_in;
-use crate::review::{Change, Decision};
+use super::decide::{self, flags_in};
+use crate::review::Decision;
 use crate::session::Edit;
 
 /// Why samples are wild, or are not.
@@ -80,11 +80,8 @@ pub(super) fn set(model: &mut Model, text: &str) -> Vec<Effect> {
     for &(plan, row) in &rows {
         let Some(before) = model.session.plans.get(plan).and_then(|p| p.decisions.get(row)).cloned() else { continue };
         decided += 1;
-        let after = Decision { note: text.to_owned(), ..before.clone() };
-        if before == after {
-            continue;
-        }
-        let change = Change { row, before: Some(before), after: Some(after) };
+        let after = Decision { note: text.to_owned(), signature: model.signature(), ..before.clone() };
+        let Some(change) = decide::changed(row, Some(before), Some(after)) else { continue };
         match edits.last_mut() {
             Some(Edit::Decide { plan: last, changes }) if *last == plan => changes.push(change),
             _ => edits.push(Edit::Decide { plan, changes: vec![change] }),

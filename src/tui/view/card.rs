@@ -13,7 +13,8 @@ use super::queue::ratio_text;
 use super::{NOT_JUDGED, clear, compare, fit, heading, several_days, short};
 use crate::method::{Direction, Verdict};
 use crate::plot::{Drawn, state};
-use crate::session::Mark;
+use crate::review::Decision;
+use crate::session::{Mark, signature_words};
 use crate::track::{Series, printable};
 
 mod whole;
@@ -114,7 +115,14 @@ fn why(model: &Model) -> Option<String> {
     }
     let decision = model.plan().decisions.get(row)?;
     let note = printable(&decision.note);
-    Some(if note.is_empty() { "by the analyst".into() } else { format!("by the analyst: {note}") })
+    let who = decided_by(decision);
+    Some(if note.is_empty() { who } else { format!("{who}: {note}") })
+}
+
+/// By whom and when a decision was made, as far as the session knows.
+fn decided_by(decision: &Decision) -> String {
+    let who = signature_words(&decision.signature).unwrap_or_else(|| "the analyst".into());
+    format!("by {}", printable(&who))
 }
 
 pub(super) fn state_word(state: FlagState) -> &'static str {
@@ -260,13 +268,15 @@ fn remarks(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) ->
     let mut spans = Vec::new();
     if mark.is_some_and(|m| m.ruling.is_some()) {
         let row = u32::try_from(series.row(i)).unwrap_or(u32::MAX);
-        let note = model.plan().decisions.get(row).map(|d| d.note.clone()).unwrap_or_default();
+        let decision = model.plan().decisions.get(row);
+        let note = decision.map(|d| d.note.clone()).unwrap_or_default();
+        let who = decision.map_or_else(|| "by the analyst".into(), decided_by);
         let note = if note.is_empty() {
             format!("no note ({} writes one)", model.key(Action::Note))
         } else {
             format!("note: {}", printable(&note))
         };
-        spans.push(Span::styled(format!(" decided by the analyst  {note}"), theme.dim));
+        spans.push(Span::styled(format!(" decided {who}  {note}"), theme.dim));
     }
     if let Some(drawn) = &model.state().drawn {
         let restarts = drawn.outcome.detection.judged.restarts();

@@ -9,6 +9,7 @@ use super::table::{CHANNEL, Column, ROW, TIME, Walk, cell, column, names, time_t
 use super::{Analysed, Mark, Objected, Run, Session};
 use crate::error::{Error, Result};
 use crate::method::{Direction, Verdict};
+use crate::review::Signature;
 use crate::track::{Track, escape_formula};
 
 /// The columns, in order.
@@ -130,6 +131,8 @@ pub struct Evidence {
     pub objected: Option<Objected>,
     /// The analyst's note; often empty.
     pub note: String,
+    /// By whom and when it was decided; nothing where nobody did.
+    pub signature: Signature,
 }
 
 /// The place of a sample in a run of outliers.
@@ -203,5 +206,6 @@ pub fn evidence(session: &Session, channel: &Walk<'_>, row: usize, position: usi
         decided: decision.is_some(),
         objected: outcome.detection.objected(position),
         note: decision.map(|d| d.note.clone()).unwrap_or_default(),
+        signature: decision.map(|d| d.signature.clone()).unwrap_or_default(),
     })
 }

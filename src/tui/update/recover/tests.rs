@@ -3,7 +3,7 @@ use super::*;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::review::{Decision, Ruling};
+use crate::review::{Decision, Ruling, Signature};
 use crate::session::journal::Entry;
 use crate::session::{Session, Setup};
 use crate::track::{LoadOptions, Source, load};
@@ -22,7 +22,8 @@ fn model(offered: Vec<Found>) -> Model {
 }
 
 fn found(name: &str) -> Found {
-    let decision = Decision { ruling: Ruling::Normal, note: "seen".into(), said: None };
+    let decision =
+        Decision { ruling: Ruling::Normal, note: "seen".into(), said: None, signature: Signature::default() };
     let decisions = |row, d| Entry::Decide { channel: "alt_m".into(), decisions: vec![(row, d)] };
     Found {
         path: name.into(),

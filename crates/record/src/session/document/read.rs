@@ -15,8 +15,9 @@ use crate::error::{Error, Result};
 use crate::memory::Share;
 use crate::param::{Kind, Numbers, Param, Settings, Value, find};
 use crate::repair;
-use crate::review::{Decision, Decisions, Ruling};
+use crate::review::{Decision, Decisions, Ruling, Signature};
 use crate::session::digest::{Digest, WrittenDigest};
+use crate::session::signature::at_of_text;
 use crate::session::{Data, Plan, Preparation, Recorded, Session, Setup, folder_of, is_period, method_of_id, tidied};
 use crate::track::{DASH, LoadOptions, Pattern, Rules, Source, Worded};
 
@@ -54,6 +55,12 @@ pub(in crate::session) struct WrittenDecision {
     verdict: String,
     #[serde(default)]
     note: String,
+    /// The name of who decided.
+    #[serde(default)]
+    by: Option<String>,
+    /// When, as in `2026-12-01T02:15:00Z`.
+    #[serde(default)]
+    at: Option<String>,
     /// The line of the session file it stands on.
     #[serde(skip)]
     pub(in crate::session) line: Option<usize>,
@@ -386,7 +393,13 @@ impl Reader<'_> {
             if decisions.get(row).is_some() {
                 return Err(fault(self.path, line, format!("row {}: decided twice", d.row), "keep one decision"));
             }
-            decisions.set(row, Some(Decision { ruling, note: d.note.clone(), said: None }));
+            let at = d.at.as_deref().map(|text| {
+                at_of_text(text).ok_or_else(|| {
+                    fault(self.path, line, format!("at = {text:?}"), "write a moment such as \"2026-12-01T02:15:00Z\"")
+                })
+            });
+            let signature = Signature { by: d.by.as_deref().map(Into::into), at: at.transpose()? };
+            decisions.set(row, Some(Decision { ruling, note: d.note.clone(), said: None, signature }));
             written.push(d);
         }
         let preparation = Preparation {

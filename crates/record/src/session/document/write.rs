@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::FORMAT;
 use crate::error::{Error, Result};
 use crate::param::{Param, Settings, Value};
+use crate::session::signature::at_text;
 use crate::session::{Data, Digest, Plan, Preparation, Session, folder_of};
 use crate::track::{Pattern, Rules, Source, Worded, is_hidden};
 
@@ -164,6 +165,12 @@ fn decisions(plan: &Plan, texts: &[(String, String)]) -> Vec<String> {
         }
         if !decision.note.is_empty() {
             let _ = write!(text, ", note = {}", quoted(&decision.note));
+        }
+        if let Some(by) = &decision.signature.by {
+            let _ = write!(text, ", by = {}", quoted(by));
+        }
+        if let Some(at) = at_text(&decision.signature) {
+            let _ = write!(text, ", at = {}", quoted(&at));
         }
         lines.push(text + " },");
     }

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::method::{METHODS, Verdict};
-use crate::review::{History, Ruling};
+use crate::review::{History, Ruling, Signature};
 use crate::session::{Data, Preset};
 use crate::track::{LoadOptions, Source};
 
@@ -86,7 +86,9 @@ fn edit_of(deed: &Deed, session: &Session) -> Option<Edit> {
             for (row, wild) in rows {
                 let ruling = wild.map(|wild| if wild { Ruling::Outlier } else { Ruling::Normal });
                 let said = Some(Verdict::ALL[*row as usize % 5]).filter(|v| *v != Verdict::Missing);
-                let after = ruling.map(|ruling| Decision { ruling, note: note.clone(), said });
+                let by = (!note.is_empty()).then(|| note.as_str().into());
+                let signature = Signature { by, at: wild.map(|_| i64::from(*row) * 86_399) };
+                let after = ruling.map(|ruling| Decision { ruling, note: note.clone(), said, signature });
                 if changes.iter().all(|c| c.row != *row) {
                     let before = session.plans[*plan].decisions.get(*row).cloned();
                     changes.push(Change { row: *row, before, after });
@@ -202,7 +204,7 @@ proptest! {
         let (bytes, _) = lived(&deeds, false);
         let mut now = session();
         // Something else was begun meanwhile: it must not show through.
-        now.plans[0].decisions.set(7, Some(Decision { ruling: Ruling::Normal, note: "mine".into(), said: None }));
+        now.plans[0].decisions.set(7, Some(Decision { ruling: Ruling::Normal, note: "mine".into(), said: None, signature: Signature::default() }));
         let before = now.plans.clone();
         let edits = replay(&mut now, &decode(&bytes).unwrap().entries);
         edits.iter().rev().for_each(|edit| now.revert(edit));

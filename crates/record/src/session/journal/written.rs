@@ -9,7 +9,8 @@ use super::{Base, Entry, Foreign, Header};
 use crate::check::{Applied, find};
 use crate::method::Verdict;
 use crate::param::Settings;
-use crate::review::{Decision, Decisions, Ruling};
+use crate::review::{Decision, Decisions, Ruling, Signature};
+use crate::session::signature::{at_of_text, at_text};
 use crate::session::{Plan, Preparation, Preset, Setup, is_period, method_of_id};
 
 /// The version of the lines that this program writes and reads.
@@ -135,6 +136,10 @@ struct WrittenDecision {
     /// What the method said when it was decided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     said: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    by: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    at: Option<String>,
 }
 
 /// The JSON of a header, on one line.
@@ -242,6 +247,8 @@ fn written(row: u32, decision: Option<&Decision>) -> WrittenDecision {
         verdict: decision.map(|d| d.ruling.verdict().word().to_owned()),
         note: decision.map(|d| d.note.clone()).unwrap_or_default(),
         said: decision.and_then(|d| d.said).map(|v| v.word().to_owned()),
+        by: decision.and_then(|d| d.signature.by.as_deref()).map(str::to_owned),
+        at: decision.and_then(|d| at_text(&d.signature)),
     }
 }
 
@@ -271,9 +278,14 @@ impl WrittenDecision {
             None => None,
             Some(word) => Some(Verdict::ALL.into_iter().find(|v| v.word() == word)?),
         };
+        let at = match self.at {
+            None => None,
+            Some(text) => Some(at_of_text(&text)?),
+        };
+        let signature = Signature { by: self.by.map(Into::into), at };
         let decision = match self.verdict {
             None => None,
-            Some(word) => Some(Decision { ruling: Ruling::of_word(&word)?, note: self.note, said }),
+            Some(word) => Some(Decision { ruling: Ruling::of_word(&word)?, note: self.note, said, signature }),
         };
         Some((row, decision))
     }

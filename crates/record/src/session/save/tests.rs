@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::error::Error;
-use crate::review::{Decision, Ruling};
+use crate::review::{Decision, Ruling, Signature};
 use crate::session::{Setup, write_cleaned};
 use crate::stop::Stop;
 use crate::track::{LoadOptions, Outputs, Source, faults, load};
@@ -31,7 +31,8 @@ fn content(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 fn a_disk_that_fails_at_any_place_leaves_the_old_files_whole_and_nothing_else() {
     let track = load(&Source::demo(), &LoadOptions::default()).unwrap();
     let mut session = Session::new(&track, LoadOptions::default(), &Setup::standard());
-    let decision = Decision { ruling: Ruling::Outlier, note: "glint".into(), said: None };
+    let decision =
+        Decision { ruling: Ruling::Outlier, note: "glint".into(), said: None, signature: Signature::default() };
     session.plans[0].decisions.set(60, Some(decision));
     let analysed = Analysed::of(&session, &track, &Stop::never()).unwrap();
     let (mut injected, mut survived) = (0, 0);
@@ -69,4 +70,34 @@ fn a_disk_that_fails_at_any_place_leaves_the_old_files_whole_and_nothing_else() 
     );
     // A census: a place that is no longer asked, or a new one, changes these on purpose.
     assert_eq!((injected, survived), (72, 68));
+}
+
+#[test]
+fn a_session_and_its_table_say_who_decided_and_when() {
+    let track = load(&Source::demo(), &LoadOptions::default()).unwrap();
+    let mut session = Session::new(&track, LoadOptions::default(), &Setup::standard());
+    // 20,788 days after 1970-01-01 is 2026-12-01.
+    let signature = Signature { by: Some("M. \"Mika\" Ito".into()), at: Some(20_788 * 86_400 + 8_100) };
+    let signed = Decision { ruling: Ruling::Outlier, note: "glint".into(), said: None, signature };
+    let unsigned =
+        Decision { ruling: Ruling::Normal, note: String::new(), said: None, signature: Signature::default() };
+    session.plans[0].decisions.set(60, Some(signed.clone()));
+    session.plans[0].decisions.set(61, Some(unsigned.clone()));
+    let analysed = Analysed::of(&session, &track, &Stop::never()).unwrap();
+    let path = Path::new("s.toml");
+    let text = document(&mut session, &track, &analysed, path).unwrap();
+    let lines: Vec<&str> = text.lines().filter(|line| line.contains("verdict =")).collect();
+    assert!(lines[0].ends_with("by = \"M. \\\"Mika\\\" Ito\", at = \"2026-12-01T02:15:00Z\" },"), "{}", lines[0]);
+    assert!(lines[1].ends_with("verdict = \"normal\" },"), "{}", lines[1]);
+    let back = crate::session::parse(path, &text).unwrap();
+    assert_eq!(back.plans[0].decisions.get(60), Some(&signed));
+    assert_eq!(back.plans[0].decisions.get(61), Some(&unsigned));
+    let mut table = Vec::new();
+    crate::session::decisions(&track, &session, &mut table).unwrap();
+    let table = String::from_utf8(table).unwrap();
+    assert!(table.contains("outlier,glint,\"M. \"\"Mika\"\" Ito\",2026-12-01T02:15:00Z\n"), "{table}");
+    assert!(table.ends_with("normal,,,\n"), "{table}");
+    let wrong = text.replace("2026-12-01T02:15:00Z", "yesterday");
+    let error = crate::session::parse(path, &wrong).unwrap_err().to_string();
+    assert!(error.contains("at = \"yesterday\"") && error.contains("2026-12-01T02:15:00Z"), "{error}");
 }

@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::review::{Decisions, Ruling};
+use crate::review::{Decisions, Ruling, Signature};
 use crate::session::Data;
 use crate::track::{LoadOptions, Source};
 
@@ -24,7 +24,7 @@ fn session() -> Session {
 
 fn decision(outlier: bool, note: &str) -> Option<Decision> {
     let ruling = if outlier { Ruling::Outlier } else { Ruling::Normal };
-    Some(Decision { ruling, note: note.into(), said: None })
+    Some(Decision { ruling, note: note.into(), said: None, signature: Signature::default() })
 }
 
 fn decide(row: u32, decision: Option<Decision>) -> Entry {
