@@ -54,6 +54,7 @@ pub mod plot;
 pub mod session_guard;
 mod signals;
 mod startup;
+pub mod survey;
 mod terminal;
 pub mod theme;
 pub mod update;

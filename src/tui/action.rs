@@ -54,6 +54,7 @@ pub enum Action {
     Detectability,
     NextChannel,
     Channels,
+    Overview,
     Methods,
     Repairs,
     StepUp,

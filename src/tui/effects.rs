@@ -16,11 +16,12 @@ use super::layout;
 use super::message::{Effect, Message, Written};
 use super::model::{Model, Overlay};
 use super::session_guard::Known;
+use super::survey::{self, Survey};
 use super::terminal::Screen;
 use super::update::update;
 use super::watch::Watch;
-use crate::error::Result;
 use crate::clock;
+use crate::error::Result;
 use crate::job::Worker;
 
 /// How long a frame waits for the result of what the user did: as long as frames are apart by default.
@@ -43,6 +44,7 @@ pub(super) struct Outside {
     advising: bool,
     poller: Worker<Poll>,
     study_worker: Worker<detectability::Job>,
+    surveyor: Worker<Survey>,
     sender: Sender<Message>,
     pub(super) messages: Receiver<Message>,
     pub(super) journal: Journal,
@@ -70,6 +72,7 @@ impl Outside {
         let journal = Journal::start(folder.clone(), model, sender.clone());
         let poller = consensus::poll(sender.clone());
         let study_worker = detectability::study(sender.clone());
+        let surveyor = survey::survey(sender.clone());
         let desk = Desk::new(sender.clone(), folder.as_deref());
         let known = Known::default();
         sessions(model).into_iter().for_each(|file| known.read(file));
@@ -80,6 +83,7 @@ impl Outside {
             advising: false,
             poller,
             study_worker,
+            surveyor,
             sender,
             messages,
             journal,
@@ -139,11 +143,11 @@ impl Outside {
         }
         self.visible |= is_visible(model, &message);
         let saved = matches!(&message, Message::Written { what, path, result: Ok(_) } if what.session(path).is_some());
+        model.now = Some(clock::now().as_second());
         let effects = update(model, message);
         self.journal.note(model);
         if saved {
             self.journal.saved(model);
-        model.now = Some(clock::now().as_second());
         }
         self.carry_out(model, screen, effects)
     }
@@ -177,6 +181,10 @@ impl Outside {
                     let generation = self.study_worker.submit(job);
                     model.studying = Some(Studying { generation, ..studying });
                 }
+                Effect::Survey(plans) => {
+                    model.surveying = Some(self.surveyor.submit(Survey::new(model, &plans)));
+                }
+                Effect::CancelSurvey => self.surveyor.cancel(),
                 Effect::CancelStudy => self.study_worker.cancel(),
                 Effect::Cancel => {
                     self.advisor.cancel();

@@ -9,6 +9,7 @@ use super::advice::StepsJob;
 use super::message::{Message, Output, OutputKind, Written};
 use super::model::Model;
 use super::session_guard::Known;
+use super::survey::ChannelSummary;
 use super::words::counted;
 use crate::error::{Error, Result};
 use crate::job::Worker;
@@ -99,6 +100,29 @@ impl Judge {
         let short = model.channels[self.plan].drawn.as_ref().is_some_and(|d| d.hidden.len() <= SHORT);
         let steps = if short { StepsJob::new(model, self.plan).map(Box::new) } else { None };
         Self { steps, ..self }
+    }
+
+    /// The same with samples of its own, which go when it is done; those of a channel that was shown stay.
+    #[must_use]
+    pub fn apart(self) -> Self {
+        let samples = if self.previous.is_some() { self.samples } else { Arc::new(Samples::later()) };
+        Self { samples, ..self }
+    }
+
+    /// Index of the plan.
+    #[must_use]
+    pub fn plan(&self) -> usize {
+        self.plan
+    }
+
+    /// What the overview tells of the channel.
+    ///
+    /// # Errors
+    /// As [`Judge::run`].
+    pub fn summary(&self, stop: &Stop) -> Result<ChannelSummary> {
+        let drawn = self.run(stop)?;
+        let series = self.samples.series(&self.track.channels[self.channel], &self.track.time);
+        Ok(ChannelSummary::of(&drawn, &series))
     }
 
     /// Does it.

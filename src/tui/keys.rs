@@ -154,6 +154,7 @@ pub static KEYMAP: &[Binding] = {
         row(View, &["b"], A::BeforeAfter, "before and after repair", ""),
         row(View, &["d"], A::NextChannel, "next channel", "channel"),
         row(View, &["D"], A::Channels, "choose a channel from a list", ""),
+        row(View, &["g o"], A::Overview, "overview of all channels: flags, state; to accept, copy settings, sort", ""),
         row(View, &["m"], A::Methods, "choose a method", "method"),
         row(View, &["e"], A::Repairs, "choose a repair", ""),
         row(View, &[","], A::StepDown, "active parameter one step down", "step"),

@@ -1,6 +1,7 @@
 //! What can happen to the workbench, and what it asks the outside for.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use ratatui::crossterm::event::{KeyEvent, MouseEvent};
 
@@ -8,6 +9,7 @@ use super::advice::{Advice, Steps};
 use super::consensus::Consensus;
 use super::detectability::{Finding, Subject};
 use super::files::{News, Task};
+use super::survey::ChannelSummary;
 use crate::error::{Error, Result};
 use crate::plot::Drawn;
 use crate::track::Standing;
@@ -66,6 +68,15 @@ pub enum Message {
         finding: Finding,
         /// Rounds that are done, of all.
         rounds: [usize; 2],
+    },
+    /// A channel was judged for the overview.
+    Surveyed {
+        /// The job it answers.
+        generation: u64,
+        /// Index of the plan.
+        plan: usize,
+        /// What came out.
+        summary: Result<Arc<ChannelSummary>>,
     },
     /// What one step of the active knob of a channel changes is known.
     Stepped {
@@ -235,6 +246,10 @@ pub enum Effect {
     CancelPoll,
     /// Measure on the channel of this plan how small a wild point is found.
     Study(usize, Subject),
+    /// Judge the channels of these plans for the overview, the first first.
+    Survey(Vec<usize>),
+    /// Nobody looks at the overview any more.
+    CancelSurvey,
     /// Abandon measuring it.
     CancelStudy,
     /// Abandon the running judgement.

@@ -22,12 +22,14 @@ use crate::session::{Edit, Plan, Session};
 use crate::track::{Channel, Series, Standing, Track};
 
 mod channel;
+mod channels_overview;
 mod dialog;
 mod overlay;
 mod review;
 mod secondary_chart;
 
 pub use channel::{ChannelState, Pinned, YMode};
+pub use channels_overview::{ChannelsOverview, ReviewState, SortColumn};
 pub use dialog::{Browser, Dialog, ExportForm, ExportRow, LoaderForm, Over, Waiting};
 pub use overlay::{Merging, Overlay, Picker, PickerKind, Prompt, PromptKind};
 pub use review::{Group, Reviewing, Sort, Unit};
@@ -76,6 +78,8 @@ pub struct Model {
     pub mouse: bool,
     /// The name of the analyst, in decisions and reports.
     pub analyst: Option<String>,
+    /// When the message came that is being handled, in seconds since 1970; the runtime sets it.
+    pub now: Option<i64>,
     /// The cell of the trace in which a button went down, until it comes up.
     pub pressed: Option<(u16, u16)>,
     /// The cell in which the last click chose a row of a list, as long as nothing else has moved that list.
@@ -96,6 +100,8 @@ pub struct Model {
     pub polling: Option<Polling>,
     /// The measurement of detectability that is under way.
     pub studying: Option<Studying>,
+    /// The job that judges channels for the overview.
+    pub surveying: Option<u64>,
     /// True when x is the number of the sample, false when it is its time.
     pub by_number: bool,
     /// Whether the next quit is meant.
@@ -179,17 +185,18 @@ impl Model {
             keys: Keys::default(),
             mouse: false,
             analyst: None,
+            now: None,
             pressed: None,
             clicked: None,
             lines: Vec::new(),
             jumped: None,
             awaited: None,
             review: Reviewing::default(),
-            now: None,
             lower: Lower::default(),
             second: Second::default(),
             polling: None,
             studying: None,
+            surveying: None,
             by_number: false,
             interrupted: false,
             ticket: 0,
@@ -228,6 +235,12 @@ impl Model {
         &mut self.channels[self.shown]
     }
 
+    /// By whom and when a decision is made that is made now.
+    #[must_use]
+    pub fn signature(&self) -> Signature {
+        Signature { by: self.analyst.as_deref().map(Into::into), at: self.now }
+    }
+
     /// The plan of the channel on the screen.
     #[must_use]
     pub fn plan(&self) -> &Plan {
@@ -235,12 +248,6 @@ impl Model {
     }
 
     /// The channel on the screen as it is in the track.
-    /// By whom and when a decision is made that is made now.
-    #[must_use]
-    pub fn signature(&self) -> Signature {
-        Signature { by: self.analyst.as_deref().map(Into::into), at: self.now }
-    }
-
     #[must_use]
     pub fn channel(&self) -> &Channel {
         &self.track.channels[self.state().channel]

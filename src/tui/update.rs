@@ -12,6 +12,7 @@ use crate::error::{Error, on_one_line};
 use crate::track::printable;
 
 mod channels;
+pub(super) mod channels_overview;
 mod chart_actions;
 mod checks;
 mod command;
@@ -119,6 +120,10 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
         Message::Studied { generation, plan, finding, rounds } => {
             detectability::studied(model, generation, plan, finding, rounds)
         }
+        Message::Surveyed { generation, plan, summary } => {
+            channels_overview::surveyed(model, generation, plan, summary);
+            Vec::new()
+        }
         Message::Written { what, path, result } => files::written(model, &what, &path, result),
         Message::Files(news) => dialog::news(model, news),
         Message::Record(standing) => {
@@ -147,7 +152,7 @@ fn no_action(model: &mut Model, key: KeyEvent, prefix: Option<char>) {
 type Part = fn(&mut Model, Action) -> Option<Vec<Effect>>;
 
 /// The parts that carry actions out. Each action is one part's; the others leave it.
-const PARTS: [Part; 13] = [
+const PARTS: [Part; 14] = [
     review::act,
     decide::act,
     tune::act,
@@ -158,6 +163,7 @@ const PARTS: [Part; 13] = [
     consensus::act,
     detectability::act,
     channels::act,
+    channels_overview::act,
     checks::act,
     files::act,
     window,

@@ -15,6 +15,7 @@ use super::words;
 use crate::track::without_signed_zero;
 
 mod card;
+mod channels_overview;
 mod compare;
 mod detectability;
 mod files;

@@ -3,6 +3,7 @@
 #![expect(unreachable_pub, reason = "it is shared by test programs")]
 
 use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
 
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -18,6 +19,7 @@ use wildpoint::tui::jobs::Judge;
 use wildpoint::tui::message::{Effect, Message};
 use wildpoint::tui::model::Model;
 use wildpoint::tui::plot::Glyphs;
+use wildpoint::tui::survey::Survey;
 use wildpoint::tui::theme::{ColorDepth, Theme};
 use wildpoint::tui::update::update;
 use wildpoint::tui::{Look, Opening, text_of, view};
@@ -37,11 +39,15 @@ impl Bench {
     }
 
     /// The same while the first result is still awaited.
-    pub fn unanswered(name: &str, (glyphs, depth): (Glyphs, ColorDepth)) -> Self {
+    pub fn unanswered(name: &str, look: (Glyphs, ColorDepth)) -> Self {
         // As a user would name it from the checkout: paths on the screen are the same wherever that lies.
-        let path = PathBuf::from("data").join(name);
+        Self::of(Source::File(PathBuf::from("data").join(name)), look)
+    }
+
+    /// On a record, while the first result is still awaited.
+    pub fn of(source: Source, (glyphs, depth): (Glyphs, ColorDepth)) -> Self {
         let options = LoadOptions::default();
-        let track = load(&Source::File(path), &options).unwrap();
+        let track = load(&source, &options).unwrap();
         let session = Session::new(&track, options, &Setup::standard());
         let opening = Opening { track, session, file: None, notes: Vec::new(), own: Vec::new() };
         let model = opening.model(Look { theme: Theme::choose(depth, false), glyphs });
@@ -78,6 +84,18 @@ impl Bench {
         self.0.polling = Some(poll.started(7));
         let consensus = Box::new(poll.run(&Stop::never(), |_| {}).unwrap());
         update(&mut self.0, Message::Polled { generation: 7, plan, consensus });
+    }
+
+    /// Judges the channels of the overview.
+    fn survey(&mut self, plans: &[usize]) {
+        let survey = Survey::new(&self.0, plans);
+        self.0.surveying = Some(7);
+        let told = Mutex::new(Vec::new());
+        survey.run(&Stop::never(), |plan, summary| told.lock().unwrap().push((plan, summary))).unwrap();
+        for (plan, summary) in told.into_inner().unwrap() {
+            let summary = summary.map(Arc::new);
+            assert!(update(&mut self.0, Message::Surveyed { generation: 7, plan, summary }).is_empty());
+        }
     }
 
     /// A measurement of detectability is under way.
@@ -117,7 +135,8 @@ impl Bench {
                 Effect::Poll(plan) => self.poll(plan),
                 Effect::Advise(plan) => self.advise(plan),
                 Effect::Study(plan, subject) => self.study(plan, subject),
-                Effect::CancelPoll | Effect::CancelStudy => {}
+                Effect::Survey(plans) => self.survey(&plans),
+                Effect::CancelPoll | Effect::CancelStudy | Effect::CancelSurvey => {}
                 Effect::Files(task) => self.answer(task),
                 other => panic!("{other:?} is nothing for a still frame"),
             }

@@ -8,6 +8,7 @@ use super::super::chart_data::Pictures;
 use super::super::consensus::Consensus;
 use super::super::detectability::{MeasuredSetting, Studied};
 use super::super::plot::{Axis, Flags, Layers, View};
+use super::super::survey::ChannelSummary;
 use super::Group;
 use crate::param::Settings;
 use crate::plot::{Drawn, Sides};
@@ -69,6 +70,10 @@ pub struct ChannelState {
     pub measured: Option<Arc<MeasuredSetting>>,
     /// Why no known wild points can be tried on this channel.
     pub unmeasurable: Option<String>,
+    /// What the overview tells of it, as of the last time it was judged there; or why it could not be.
+    pub summary: Option<Result<Arc<ChannelSummary>, String>>,
+    /// True when the summary is not that of the session as it is now.
+    pub summary_stale: bool,
     /// Counts the results that were shown.
     pub results: u64,
     /// What was reduced for the last frame.
@@ -140,6 +145,8 @@ impl ChannelState {
             studied: None,
             measured: None,
             unmeasurable: None,
+            summary: None,
+            summary_stale: true,
             results: 0,
             pictures: Pictures::default(),
             cursor: 0,

@@ -3,7 +3,7 @@
 use tui_input::Input;
 
 use super::super::journal::Found;
-use super::Dialog;
+use super::{ChannelsOverview, Dialog};
 use crate::session::journal::Conflict;
 
 /// What lies over the panels.
@@ -16,6 +16,8 @@ pub enum Overlay {
     Help(Input, usize),
     /// A list to choose from.
     Picker(Picker),
+    /// All channels, a row for each.
+    Overview(Box<ChannelsOverview>),
     /// A line to type in.
     Prompt(Prompt),
     /// The command line that does the same without a screen, and what to know about it.

@@ -33,6 +33,19 @@ impl Glyphs {
         }
     }
 
+    /// A height from 0 to 1 in one cell.
+    #[must_use]
+    pub fn level(self, height: f32) -> char {
+        let levels: &[char] = match self {
+            Self::Unicode => &['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'],
+            Self::Braille => &['⡀', '⠄', '⠂', '⠁'],
+            Self::Ascii => &['_', '.', '-', '\''],
+        };
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to the number of levels")]
+        let at = (height.clamp(0.0, 1.0) * levels.len() as f32) as usize;
+        levels[at.min(levels.len() - 1)]
+    }
+
     /// The marker of a flag. Each state has its own shape in every set.
     #[must_use]
     pub fn flag(self, state: FlagState) -> char {

@@ -23,14 +23,19 @@ pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
     })
 }
 
-/// Gives all other channels the method, the settings and the repair of the one on the screen. The rate channel, and
-/// what is done before the method, is each channel's own.
+/// Gives all other channels the method, the settings and the repair of the one on the screen.
 pub(super) fn settings_to_all(model: &mut Model) -> Vec<Effect> {
     let shown = model.shown;
-    let source = model.plan().setup.clone();
-    let others = model.session.plans.iter().enumerate().filter(|(plan, _)| *plan != shown);
+    let others: Vec<usize> = (0..model.channels.len()).filter(|plan| *plan != shown).collect();
+    copy_settings(model, shown, &others)
+}
+
+/// Gives the channels of the plans `to` the method, the settings and the repair of another. The rate channel, and what
+/// is done before the method, is each channel's own.
+pub(super) fn copy_settings(model: &mut Model, from: usize, to: &[usize]) -> Vec<Effect> {
+    let source = model.session.plans[from].setup.clone();
     let (mut edits, mut without_rate) = (Vec::new(), Vec::new());
-    for (plan, other) in others {
+    for (plan, other) in to.iter().map(|plan| (*plan, &model.session.plans[*plan])) {
         let after =
             Setup { rate: other.setup.rate.clone(), preparation: other.setup.preparation.clone(), ..source.clone() };
         if source.method.about().needs_rate && after.rate.is_none() {
@@ -47,7 +52,7 @@ pub(super) fn settings_to_all(model: &mut Model) -> Vec<Effect> {
         model.say(Tone::Warning, words);
         return Vec::new();
     }
-    let knob = model.state().knob;
+    let knob = model.channels[from].knob;
     for edit in &edits {
         edit.touched().iter().for_each(|(plan, _)| model.channels[*plan].knob = knob);
     }

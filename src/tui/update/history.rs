@@ -63,7 +63,7 @@ fn changed(model: &mut Model, edit: &Edit, alike: &[usize]) -> Vec<Effect> {
     }
     for plan in touched.iter().map(|(plan, _)| *plan).chain(alike.iter().copied()) {
         let state = &mut model.channels[plan];
-        (state.stale, state.error) = (true, None);
+        (state.stale, state.summary_stale, state.error) = (true, true, None);
     }
     model.unjournalled.push(touched);
     model.revision += 1;

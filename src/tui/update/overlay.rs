@@ -6,7 +6,10 @@ use tui_input::{Input, InputRequest};
 use super::super::files::Task;
 use super::super::message::Effect;
 use super::super::model::{Model, Overlay, Picker, PickerKind, Prompt, PromptKind};
-use super::{chart_actions, detectability, dialog, files, journal, jump, note, palette, recover, set_up, show, tune};
+use super::{
+    channels_overview, chart_actions, detectability, dialog, files, journal, jump, note, palette, recover, set_up,
+    show, tune,
+};
 use crate::error::on_one_line;
 use crate::method::METHODS;
 use crate::repair::REPAIRS;
@@ -92,6 +95,7 @@ pub(super) fn key(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
         Overlay::Recover(found) => return recover::key(model, found, key),
         Overlay::Merge(merging) => return recover::choose(model, *merging, key),
         Overlay::Files(files) => return dialog::key(model, *files, key),
+        Overlay::Overview(overview) => return channels_overview::key(model, *overview, key),
         other => other,
     };
     let gone = key.code == KeyCode::Esc || (key.code == KeyCode::Char('c') && control(key));
@@ -99,7 +103,9 @@ pub(super) fn key(model: &mut Model, key: KeyEvent) -> Vec<Effect> {
         return Vec::new();
     }
     match overlay {
-        Overlay::None | Overlay::Recover(_) | Overlay::Merge(_) | Overlay::Files(_) => Vec::new(),
+        Overlay::None | Overlay::Recover(_) | Overlay::Merge(_) | Overlay::Files(_) | Overlay::Overview(_) => {
+            Vec::new()
+        }
         Overlay::Help(filter, from) => {
             model.overlay = help(filter, from, key);
             Vec::new()
@@ -127,6 +133,7 @@ pub(super) fn paste(model: &mut Model, text: &str) -> Vec<Effect> {
         | Overlay::ConfirmQuit
         | Overlay::Recover(_)
         | Overlay::Merge(_)
+        | Overlay::Overview(_)
         | Overlay::Journal(_)
         | Overlay::CommandLine(..) => return Vec::new(),
     };

@@ -21,7 +21,12 @@ fn rows(model: &Model) -> Option<(Option<usize>, usize)> {
         }
         Overlay::Journal(at) => Some((Some(*at), model.history.len() + model.history.undone().len() + 1)),
         Overlay::Files(dialog) => dialog::rows(dialog).map(|(at, n)| (Some(at), n)),
+        Overlay::Overview(overview) if !overview.filtering => {
+            let rows = overview.rows(model);
+            Some((rows.iter().position(|plan| *plan == overview.plan), rows.len()))
+        }
         Overlay::None
+        | Overlay::Overview(_)
         | Overlay::Prompt(_)
         | Overlay::Help(..)
         | Overlay::CommandLine(..)
@@ -33,6 +38,13 @@ fn rows(model: &Model) -> Option<(Option<usize>, usize)> {
 
 /// Moves the cursor to a row that is there.
 fn choose(model: &mut Model, to: usize) -> Vec<Effect> {
+    if let Overlay::Overview(overview) = &model.overlay {
+        let plan = overview.rows(model).get(to).copied();
+        if let (Overlay::Overview(overview), Some(plan)) = (&mut model.overlay, plan) {
+            overview.plan = plan;
+        }
+        return Vec::new();
+    }
     match &mut model.overlay {
         Overlay::Picker(picker) => picker.choice = to,
         Overlay::Prompt(prompt) => prompt.choice = Some(to),

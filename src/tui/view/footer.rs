@@ -109,6 +109,19 @@ fn overlay_items(overlay: &Overlay) -> Option<Vec<(String, &'static str)>> {
         Overlay::None => return None,
         Overlay::Help(..) => &[("type", "to filter"), ("↑↓", "scroll"), ("Esc", "close")],
         Overlay::Picker(_) => &[("type", "to filter"), ("↑↓", "choose"), ("Enter", "take it"), ("Esc", "leave it")],
+        Overlay::Overview(overview) if overview.filtering => {
+            &[("type", "to filter"), ("Enter", "keep it"), ("Esc", "show all")]
+        }
+        Overlay::Overview(_) => &[
+            ("Enter", "open"),
+            ("/", "filter"),
+            ("s", "sort"),
+            ("Space", "select"),
+            ("a", "accept flags"),
+            ("=", "copy settings"),
+            ("u", "undo"),
+            ("Esc", "back"),
+        ],
         Overlay::Journal(_) => &[("↑↓", "choose"), ("Enter", "go there"), ("Esc", "close")],
         Overlay::Prompt(Prompt { kind: PromptKind::Note, .. }) => {
             &[("↑↓", "reason"), ("type", "in your words"), ("Enter", "keep it"), ("Esc", "leave it")]

@@ -31,6 +31,7 @@ pub(in super::super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) -> 
         Overlay::Prompt(prompt) => return line(model, prompt, area, buffer),
         Overlay::Files(dialog) => return super::files::draw(model, dialog, area, buffer),
         Overlay::Journal(at) => return super::journal::draw(model, *at, area, buffer),
+        Overlay::Overview(overview) => return super::channels_overview::draw(model, overview, area, buffer),
         Overlay::None => {}
         Overlay::Help(filter, from) => super::help::draw(model, filter, *from, area, buffer),
         Overlay::ConfirmQuit => confirm(model, area, buffer),
