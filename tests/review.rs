@@ -401,7 +401,7 @@ fn rows_of_the_queue_stay_where_they_are_when_a_flag_comes_above_them() {
 fn decisions_are_signed_and_whoever_decided_first_keeps_it() {
     let mut bench = Bench::on(&record(600, &[100, 300]));
     (bench.model.analyst, bench.model.now) = (Some("M. Ito".into()), Some(5));
-    bench.keys("na");
+    bench.keys("a");
     let signature = |bench: &Bench| bench.model.plan().decisions.get(99).map(|d| d.signature.clone());
     let first = Signature { by: Some("M. Ito".into()), at: Some(5) };
     assert_eq!(signature(&bench), Some(first.clone()));

@@ -14,6 +14,7 @@ use super::super::words::counted;
 use super::overlay::Choice;
 use super::queue::ratio_text;
 use super::{clear, fit, thousands};
+use crate::method::shared::RECORD;
 use crate::plot::SparkColumn;
 use crate::session::Setup;
 use crate::track::printable;
@@ -40,7 +41,7 @@ const SAMPLES: usize = 10;
 /// Mark of the cursor, of the selection and of what needs review, and a blank.
 const MARKS: usize = 4;
 const COUNT: usize = 8;
-const STATE: usize = 14;
+const STATE: usize = 13;
 
 impl Widths {
     fn of(model: &Model, rows: &[usize], width: usize) -> Self {
@@ -52,7 +53,7 @@ impl Widths {
             .then(|| More { unit: longest(&unit, 8).max(4), method: longest(&method, 22).max(6) });
         let fixed = MARKS + 4 * COUNT + STATE + 2 + more.map_or(0, |m| m.unit + m.method + SAMPLES + 2);
         let room = width.saturating_sub(fixed);
-        let name = longest(&|plan| printable(&model.session.plans[plan].channel).width(), room * 3 / 5).max(7);
+        let name = longest(&|plan| printable(&model.session.plans[plan].channel).width(), room / 2).max(7);
         Self { name, sparkline: room.saturating_sub(name).min(64), more }
     }
 }
@@ -185,7 +186,7 @@ fn counts(model: &Model, summary: &ChannelSummary, widths: Widths, plain: Style,
 /// How far the review is.
 fn decided(progress: ReviewState, summary: &ChannelSummary) -> String {
     match progress {
-        ReviewState::NothingFlagged => "nothing".to_owned(),
+        ReviewState::NothingFlagged => "no flags".to_owned(),
         ReviewState::Done => format!("all of {}", thousands(summary.to_decide())),
         _ => format!("{} of {}", thousands(summary.decided()), thousands(summary.to_decide())),
     }
@@ -208,12 +209,12 @@ fn sparkline(model: &Model, columns: &[SparkColumn], width: usize, dim: bool) ->
     spans
 }
 
-/// The method, its multiplier, and what its limit comes from.
+/// The method, its multiplier, and what its limit comes from where that is not the record.
 fn method_words(setup: &Setup) -> String {
     let about = setup.method.about();
     let value = |key: &str| setup.settings.mattering().find(|(p, _)| p.key == key).map(|(_, v)| v.to_string());
     let multiplier = ["k", "c"].iter().find_map(|key| value(key).map(|v| format!(" {key} {v}")));
-    let floor = value("floor").map(|floor| format!(" {floor}"));
+    let floor = value("floor").filter(|floor| floor != RECORD).map(|floor| format!(" {floor}"));
     format!("{}{}{}", about.id, multiplier.unwrap_or_default(), floor.unwrap_or_default())
 }
 
