@@ -110,6 +110,12 @@ impl Filter {
         self.level + self.x[0]
     }
 
+    /// Variance of the position.
+    #[must_use]
+    pub fn variance(&self) -> f64 {
+        self.p[0]
+    }
+
     /// Variance of the innovation, S.
     #[must_use]
     #[inline]
