@@ -64,6 +64,7 @@ fn the_filtered_track_goes_on_under_a_run_and_follows_the_analyst() {
     y[150] += 60.0;
     let mut setup = Setup::new(crate::method::find("kalman").unwrap(), Preset::Default);
     setup.set_text("sigma", "1").unwrap();
+    setup.set_text("floor", "auto").unwrap();
     let series = Series::new(&t, &y);
     let of = |decisions: &Decisions| {
         let detection = Detection::of((&series).into(), &setup, &Stop::never()).unwrap();
@@ -73,7 +74,7 @@ fn the_filtered_track_goes_on_under_a_run_and_follows_the_analyst() {
     };
     let track = of(&Decisions::default());
     assert!(track.value.iter().zip(&truth).all(|(v, truth)| (v - truth).abs() < 3.0), "{:?}", track.value);
-    assert!(track.deviation.iter().all(|d| *d > 0.0 && *d < 3.0), "{:?}", track.deviation);
+    assert!(track.deviation.iter().all(|d| *d > 0.0 && *d < 1.5), "{:?}", track.deviation);
     let mut kept = Decisions::default();
     kept.set(150, Some(Decision { ruling: crate::review::Ruling::Normal, note: String::new(), said: None }));
     assert!(of(&kept).value[150] - truth[150] > 10.0, "what the analyst keeps enters the filter");

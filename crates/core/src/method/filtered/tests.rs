@@ -73,7 +73,9 @@ fn windows_lines_and_polynomials_have_the_weights_of_least_squares() {
     // The end of the line through five: (-2 0 2 4 6) / 10; through three: (-1 2 5) / 6.
     for id in ["five-point", "adaptive"] {
         let line = filtered(id, &[], &spike(11, 5), &[], &[]);
-        [(5, 0.6), (6, 0.4), (7, 0.2), (8, 0.0), (9, -0.2), (10, 0.0)].map(|(i, weight)| close(line.value[i], weight));
+        for (i, weight) in [(5, 0.6), (6, 0.4), (7, 0.2), (8, 0.0), (9, -0.2), (10, 0.0)] {
+            close(line.value[i], weight);
+        }
         close(filtered(id, &[], &spike(11, 0), &[], &[]).value[0], 0.6);
     }
     close(filtered("five-point", &[], &spike(11, 5), &[], &[]).deviation[5], 0.6_f64.sqrt());
