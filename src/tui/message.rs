@@ -8,6 +8,7 @@ use super::advice::{Advice, Steps};
 use super::consensus::Consensus;
 use super::detectability::{Finding, Subject};
 use super::files::{News, Task};
+use super::smoothing::Smoothed;
 use crate::error::{Error, Result};
 use crate::plot::Drawn;
 use crate::track::Standing;
@@ -74,6 +75,8 @@ pub enum Message {
         /// The changes, and what they were found for.
         steps: Box<Steps>,
     },
+    /// The result on the screen was smoothed.
+    Smoothed(Box<Smoothed>),
     /// There is nothing to sweep under the settings as they were.
     NoAdvice,
     /// A file was written, or not.

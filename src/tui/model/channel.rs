@@ -8,6 +8,7 @@ use super::super::chart_data::Pictures;
 use super::super::consensus::Consensus;
 use super::super::detectability::{MeasuredSetting, Studied};
 use super::super::plot::{Axis, Flags, Layers, View};
+use super::super::smoothing::Smoothed;
 use super::Group;
 use crate::param::Settings;
 use crate::plot::{Drawn, Sides};
@@ -67,6 +68,8 @@ pub struct ChannelState {
     pub studied: Option<Arc<Studied>>,
     /// The same of the settings that were in force then.
     pub measured: Option<Arc<MeasuredSetting>>,
+    /// The latest result that was smoothed.
+    pub smoothed: Option<Smoothed>,
     /// Why no known wild points can be tried on this channel.
     pub unmeasurable: Option<String>,
     /// Counts the results that were shown.
@@ -133,12 +136,13 @@ impl ChannelState {
             view,
             views: Vec::new(),
             y_fit: YMode::default(),
-            layers: Layers::ALL,
+            layers: Layers::USUAL,
             after: false,
             pinned: None,
             consensus: None,
             studied: None,
             measured: None,
+            smoothed: None,
             unmeasurable: None,
             results: 0,
             pictures: Pictures::default(),
