@@ -20,9 +20,9 @@ mod tools;
 
 pub use advise::AdviseArgs;
 pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
+use load::worded;
 pub use load::{DateOrder, Load};
 pub use outputs::OutputArgs;
-use load::worded;
 use parse::{memory_size, pair, size};
 pub use prepare::PrepareArgs;
 pub use screen::{Color, ConfigArgs, Glyphs};

@@ -123,7 +123,8 @@ fn the_robust_range_leaves_out_one_sample_in_a_thousand_at_either_end() {
     let pyramid = Pyramid::build(&y, |_| false);
     let (span, flags) = (|i: usize| Span::at(y[i]), Flags::default());
     let (axis, kept) = (Axis::Position(&y), Curve { pyramid: &pyramid, span: &span });
-    let trace = Trace { axis, kept, flags: &flags, expected: None, band: None, repaired: None, filtered: None, gap: 1.5 };
+    let trace =
+        Trace { axis, kept, flags: &flags, expected: None, band: None, repaired: None, filtered: None, gap: 1.5 };
     // Quantiles at 10 and 9990, with 4 % of room; the others with the ends of the record.
     let close = |(a, b): (f64, f64), (c, d): (f64, f64)| (a - c).abs() < 1e-6 && (b - d).abs() < 1e-6;
     assert!(close(YFit::Robust.range(&trace, View::whole(axis)), (10.0 - 399.2, 9990.0 + 399.2)));

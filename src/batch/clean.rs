@@ -14,8 +14,8 @@ use crate::error::{Error, Result};
 use crate::report::written::{self, Written};
 use crate::report::{Byline, Summary, diagnostics, flags, report};
 use crate::session::{
-    Analysed, FlagColumn, OutputValue, Plan, Session, Setup, changed, clean_sha256, document, flag_columns, write_cleaned,
-    write_flagged, write_flagged_columns,
+    Analysed, FlagColumn, OutputValue, Plan, Session, Setup, changed, clean_sha256, document, flag_columns,
+    write_cleaned, write_flagged, write_flagged_columns,
 };
 use crate::stop::Stop;
 use crate::track::{Changes, CopyForm, Outputs, Source, Track, copy_form, load, printable, write_columns};

@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use super::model::{ChannelState, Model, YMode};
-use super::smoothing::FilteredTrack;
 use super::plot::{Axis, Columns, Curve, Flags, Grid, Layers, Memo, Pyramid, Span, Trace, View, YFit};
+use super::smoothing::FilteredTrack;
 use crate::method::shared::MAX_GAP;
 use crate::plot::{Drawn, StepColumn, Steps};
 use crate::score::Score;
@@ -187,7 +187,16 @@ impl<'a> Picture<'a> {
         if after {
             let kept = Curve { pyramid: &d.after, span: &whole };
             let repaired = Some(Curve { pyramid: &d.repaired, span: &repaired });
-            return draw(&Trace { axis, kept, flags: &self.no_flags, expected: None, band: None, repaired, filtered: None, gap });
+            return draw(&Trace {
+                axis,
+                kept,
+                flags: &self.no_flags,
+                expected: None,
+                band: None,
+                repaired,
+                filtered: None,
+                gap,
+            });
         }
         let filtered = self.filtered();
         let smooth = |i: usize| filtered.map_or(Span::EMPTY, |track| track.span(i));
@@ -199,10 +208,9 @@ impl<'a> Picture<'a> {
             expected: with(layers.expected, &d.expected, &expected),
             band: with(layers.band, &d.band, &band),
             repaired: with(layers.repaired, &d.repaired, &repaired),
-            filtered: filtered.zip(layers.filtered.then_some(())).map(|(track, ())| Curve {
-                pyramid: &track.pyramid,
-                span: &smooth,
-            }),
+            filtered: filtered
+                .zip(layers.filtered.then_some(()))
+                .map(|(track, ())| Curve { pyramid: &track.pyramid, span: &smooth }),
             gap,
         })
     }

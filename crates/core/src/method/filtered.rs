@@ -77,9 +77,7 @@ impl Settled<'_> {
             let before = run.first().and_then(|first| first.checked_sub(1));
             let after = run.last().map(|last| last + 1).filter(|after| *after < y.len());
             let value = |i: usize| match (before, after) {
-                (Some(a), Some(b)) => {
-                    standing[a] + (standing[b] - standing[a]) * ((t[i] - t[a]) / (t[b] - t[a]))
-                }
+                (Some(a), Some(b)) => standing[a] + (standing[b] - standing[a]) * ((t[i] - t[a]) / (t[b] - t[a])),
                 (Some(only), None) | (None, Some(only)) => standing[only],
                 (None, None) => f64::NAN,
             };

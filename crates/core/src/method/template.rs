@@ -1,6 +1,6 @@
 //! Template convolution: each sample against the end of the straight line through the samples up to it.
 
-use super::window::{self, LineUpTo, Limits, Spread};
+use super::window::{self, Limits, LineUpTo, Spread};
 use super::{About, Filter, Judged, Method, Own, Segment, Verdict, reaches, shared};
 use crate::math::line::LineSums;
 use crate::math::moments::Moments;

@@ -18,7 +18,10 @@ pub const CHANGED_COLUMNS: [Column; 7] = [
     column("old", "text of the cell in the record"),
     column("new", "text of the cell in the cleaned file; empty when the value was removed"),
     column("verdict", "verdict in effect: `outlier` or `missing`, where filtered values are written any of them"),
-    column("by", "id of the method or the check that flagged it, `analyst`, `fill_gaps`, or `filtered` for the value of the model"),
+    column(
+        "by",
+        "id of the method or the check that flagged it, `analyst`, `fill_gaps`, or `filtered` for the value of the model",
+    ),
 ];
 /// Who fills what is missing: the setting of the repair.
 const FILLED_BY: &str = FILL_GAPS.key;

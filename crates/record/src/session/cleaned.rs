@@ -13,11 +13,7 @@ use crate::track::{CellChange, Changes, NewRow, Samples, Track, hex, rewrite};
 /// What the outcomes change in the file. Each outcome belongs to the channel of that index in the track; `filtered` are the
 /// values that the file has in place of the measured ones, for each outcome.
 #[must_use]
-pub fn changes(
-    track: &Track,
-    outcomes: &[(usize, &Samples, &Outcome)],
-    filtered: &[Option<&Filtered>],
-) -> Changes {
+pub fn changes(track: &Track, outcomes: &[(usize, &Samples, &Outcome)], filtered: &[Option<&Filtered>]) -> Changes {
     let mut cells = Vec::new();
     let mut rows: BTreeMap<Place, NewRow> = BTreeMap::new();
     let filtered = filtered.iter().copied().chain(std::iter::repeat(None));

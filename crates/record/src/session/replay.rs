@@ -9,8 +9,8 @@ use super::flags::flags_sha256;
 use super::output_value::filtered_of;
 use super::save::known;
 use super::{
-    Data, Detection, Member, Outcome, Plan, Recorded, Session, Setup, changes, check_value, clean_sha256, detect_taught,
-    detect_together, settle,
+    Data, Detection, Member, Outcome, Plan, Recorded, Session, Setup, changes, check_value, clean_sha256,
+    detect_taught, detect_together, settle,
 };
 use crate::error::{Error, Result};
 use crate::method::Filtered;

@@ -111,7 +111,8 @@ fn smoothed(model: &Model, i: usize, facts: &mut Vec<Fact>) {
         facts.push(("filtered", text, model.theme.text));
     }
     if let Some(residual) = smoothed.residual {
-        let text = format!("{} before the repair, {} after (whole channel)", short(residual.before), short(residual.after));
+        let text =
+            format!("{} before the repair, {} after (whole channel)", short(residual.before), short(residual.after));
         facts.push(("residual", text, model.theme.text));
     }
 }

@@ -1,9 +1,9 @@
 //! The state of the tracker after each sample.
 
 use super::{ALPHA, Tracker};
+use crate::method::Damaged;
 use crate::method::filtered::{Course, Entry, Estimator, Filter, Filtered, Settled, follow};
 use crate::method::predictor::{Model, Rules};
-use crate::method::Damaged;
 use crate::stop::{Stop, Stopped};
 
 /// The model of the method.

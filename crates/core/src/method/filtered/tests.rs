@@ -8,8 +8,7 @@ fn filtered(id: &str, changes: &[(&str, &str)], y: &[f64], outliers: &[usize], o
     let mut settings = Settings::defaults(method.about().params);
     changes.iter().for_each(|(key, text)| settings.set_text(id, key, text).unwrap());
     let t: Vec<f64> = (0..y.len()).map(|i| i as f64).collect();
-    let segment =
-        Segment { t: &t, y, interval: 1.0, sigma: 1.0, floor: 0.0, floors: &[], objections: &[], rate: None };
+    let segment = Segment { t: &t, y, interval: 1.0, sigma: 1.0, floor: 0.0, floors: &[], objections: &[], rate: None };
     let judged = Part { verdict: &[], expected: &[], repair_code: &[], own: &[] };
     let damaged = Damaged { segment: &segment, settings: &settings, judged, outliers };
     let settled = Settled { damaged, own, restarts: &[] };
@@ -27,8 +26,7 @@ fn close(value: f64, wanted: f64) {
 #[test]
 fn recursive_filters_are_the_parabola_through_what_they_took_in() {
     let y = [0.0, 0.0, 0.0, 0.0, 1.0];
-    for (id, changes) in
-        [("kalman", &[("tracking_index", "0.000001")][..]), ("alpha-beta-gamma", &[("alpha", "0.02")])]
+    for (id, changes) in [("kalman", &[("tracking_index", "0.000001")][..]), ("alpha-beta-gamma", &[("alpha", "0.02")])]
     {
         let all = filtered(id, changes, &y, &[], &[]);
         assert!((all.value[4] - 31.0 / 35.0).abs() < 1e-6, "{id}: {}", all.value[4]);

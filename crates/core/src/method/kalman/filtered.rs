@@ -1,8 +1,8 @@
 //! The filtered track, the final product of \[004\] (figure 3): the state after each sample of the last run.
 
+use super::PATCH;
 use super::filter::{Filter, Tuning};
 use super::single::START_SCALES;
-use super::PATCH;
 use crate::method::filtered::{self, Course, Entry, Estimator, Filtered, Settled, follow};
 use crate::method::predictor::passed_over_by_third;
 use crate::method::{Damaged, shared};
