@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::report::written::{self, Written};
 use crate::report::{Byline, Summary, diagnostics, flags, report};
 use crate::session::{
-    Analysed, FlagColumn, OutputValue, Plan, Session, Setup, changed, clean_sha256, document, flag_columns,
+    Analysed, FlagColumn, OutputValue, Plan, Session, Setup, changed, clean_sha256, document, flag_columns, unfiltered,
     write_cleaned, write_flagged, write_flagged_columns,
 };
 use crate::stop::Stop;
@@ -128,6 +128,7 @@ pub(super) fn stage(
     let changes = outputs.output.as_ref().map(|_| analysed.changes(track));
     let changed_cells = changes.as_ref().map(|changes| changes.cells.len());
     told.note(written::CLEANED, outputs.output.as_deref(), changed_cells);
+    summary.notes.extend(unfiltered(session, analysed));
     if let (Some(path), Some(changes)) = (&outputs.output, &changes) {
         stage_cleaned(files, (path, outputs), track, (analysed, changes), summary)?;
     }

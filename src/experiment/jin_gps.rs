@@ -28,7 +28,7 @@ pub const EXPERIMENT: Experiment = Experiment {
         stand_in: "The document's GPS record of a flight, 50 Hz, is in figures only. Where the working folder has \
                    ../shared/data/gnss_daily_kmin.csv, its north position stands in: 19 years of daily positions with a \
                    drift of 0.85 m; wild is what lies 4 robust deviations or more from the median of 41 days around (ours: the \
-                   document calls wild what lies 3 off, which normal noise does 19 times among so many samples). \
+                   document calls wild what lies 3 off, which normal noise does 19 times among that number), and there are few of them. \
                    Elsewhere a simulated one: x = 2000 + 150 t - 2 t^2 over 40 s at 50 Hz with noise of 1 m, 5 % of the \
                    samples 10 to 60 m off. Paper settings, one trend for the whole record.",
         trial,

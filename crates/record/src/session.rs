@@ -36,7 +36,7 @@ pub use digest::Digest;
 pub use document::{parse, read, render};
 pub use edit::Edit;
 pub use flag_columns::{FlagColumn, flag_columns, write_flagged, write_flagged_columns};
-pub use output_value::{OutputValue, check_value, filtered};
+pub use output_value::{OutputValue, check_value, filtered, unfiltered};
 pub use position::position_check;
 pub use replay::{Accepted, Analysed, Appended, Grown, Opened, check, open, open_all};
 pub use save::{document, document_without_record};

@@ -58,6 +58,18 @@ pub(super) fn filtered_of(
     }
 }
 
+/// How many present samples of each channel keep their clean value because the model has none for them, in words; nothing
+/// where filtered values are not asked for.
+#[must_use]
+pub fn unfiltered(session: &Session, analysed: &super::Analysed) -> Vec<String> {
+    let of_plan = |(plan, filtered): (&super::Plan, &Option<Filtered>)| {
+        let without = filtered.as_ref()?.value.iter().filter(|value| !value.is_finite()).count();
+        let are = if without == 1 { "sample has" } else { "samples have" };
+        (without > 0).then(|| format!("{}: {without} {are} no filtered value, and keep the clean one", plan.channel))
+    };
+    session.plans.iter().zip(&analysed.filtered).filter_map(of_plan).collect()
+}
+
 /// The filtered values of a channel; none where its method has no model.
 ///
 /// # Errors
