@@ -1,5 +1,5 @@
 use super::*;
-use crate::Preset;
+use crate::setup::Preset;
 use crate::check::Applied;
 
 /// A wavy channel of 400 samples with a fill value at every 20th.
