@@ -50,8 +50,9 @@ pub enum Ending {
 pub fn run(command: Command, out: &mut dyn Write) -> Result<Ending> {
     match command {
         Command::Inspect { file, load, json } => inspect(&file, &load, json, out),
-        Command::Clean { files, shared, suggest, outputs, save_session } => {
-            clean::run(&files, (&shared, suggest), &outputs, save_session.as_deref(), out)
+        Command::Clean { files, shared, suggest, output_value, outputs, save_session } => {
+            let asked = clean::Asked { shared: &shared, suggested: suggest, value: output_value };
+            clean::run(&files, &asked, &outputs, save_session.as_deref(), out)
         }
         Command::Replay { sessions, check, accept_changed_data, accept_appended, outputs, threads } => {
             set_threads(threads)?;

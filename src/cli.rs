@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::error::{Error, Result};
 use crate::method::shared::MAX_GAP;
 use crate::repair;
-use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
+use crate::session::{DEFAULT_METHOD, OutputValue, Preset, Setup, method_of_id};
 
 mod advise;
 mod experiments;
@@ -20,6 +20,7 @@ mod tools;
 
 pub use advise::AdviseArgs;
 pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
+use load::worded;
 pub use load::{DateOrder, Load};
 pub use outputs::OutputArgs;
 use parse::{memory_size, pair, size};
@@ -125,6 +126,11 @@ pub enum Command {
         /// current one. The session records it.
         #[arg(long)]
         suggest: bool,
+        /// Values in the cleaned file: the measured ones, with wild points repaired or removed, or those that the method's
+        /// model smooths the track to, for methods that have one (for kalman the state of the filter). The session records
+        /// it.
+        #[arg(long, value_name = "WHICH", default_value = "clean", value_parser = worded::<OutputValue>())]
+        output_value: OutputValue,
         /// What to write.
         #[command(flatten)]
         outputs: OutputArgs,

@@ -16,5 +16,5 @@ pub mod stream;
 pub mod tui;
 mod wrapped;
 
-pub use wildpoint_core::{calibration, check, math, memory, method, param, repair, review, score, stop};
+pub use wildpoint_core::{analysis, calibration, check, math, memory, method, param, repair, review, score, stop};
 pub use wildpoint_record::{error, session, track};

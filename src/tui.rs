@@ -53,6 +53,7 @@ pub mod model;
 pub mod plot;
 pub mod session_guard;
 mod signals;
+pub mod smoothing;
 mod startup;
 pub mod survey;
 mod terminal;

@@ -37,7 +37,7 @@ fn clean_writes_the_files_of_the_contract() {
              action,decided_by,note"
         )
     );
-    assert_eq!(diagnostics.lines().next(), Some("row,time,channel,raw,verdict,expected,tolerance,clean"));
+    assert_eq!(diagnostics.lines().next(), Some("row,time,channel,raw,verdict,expected,tolerance,clean,filtered,filtered_deviation"));
     // A row for every sample of both channels.
     assert_eq!(diagnostics.lines().count(), 1 + 2 * 2356);
     // The truth column was written by the simulation: every wild point of the velocity is in the table.
@@ -273,8 +273,8 @@ fn a_flag_from_a_tolerance_of_nothing_has_that_for_its_reason() {
     // row,time,channel,raw,verdict,kind,run_start,run_length,expected,tolerance,ratio: a ratio to 0 is none.
     assert!(folder.text("f.csv").contains("\n15,14,x,9,outlier,isolated,15,1,7.5,0,,"), "{}", folder.text("f.csv"));
     let diagnostics = folder.text("d.csv");
-    assert!(diagnostics.contains("\n15,14,x,9,outlier,7.5,0,\n"), "{diagnostics}");
-    assert!(diagnostics.contains("\n14,13,x,7.5,normal,7.5,,7.5\n"), "{diagnostics}");
+    assert!(diagnostics.contains("\n15,14,x,9,outlier,7.5,0,,,\n"), "{diagnostics}");
+    assert!(diagnostics.contains("\n14,13,x,7.5,normal,7.5,,7.5,,\n"), "{diagnostics}");
 }
 
 #[test]

@@ -26,7 +26,7 @@ fn curve_at(axis: Axis<'_>, y: &[f64], view: View, range: (f64, f64)) -> String 
     let span = |i: usize| Span::at(y[i]);
     let kept = Curve { pyramid: &pyramid, span: &span };
     let (flags, gap) = (Flags::default(), f64::INFINITY);
-    let trace = Trace { axis, kept, flags: &flags, expected: None, band: None, repaired: None, gap };
+    let trace = Trace { axis, kept, flags: &flags, expected: None, band: None, repaired: None, filtered: None, gap };
     let columns = Columns::new(&trace, Grid { view, y: range, width: WIDTH, height: HEIGHT });
     let mut buffer = Buffer::empty(Rect::new(0, 0, WIDTH + GUTTER, HEIGHT));
     plot(&columns, &Theme::mono()).render(buffer.area, &mut buffer);
@@ -123,7 +123,8 @@ fn the_robust_range_leaves_out_one_sample_in_a_thousand_at_either_end() {
     let pyramid = Pyramid::build(&y, |_| false);
     let (span, flags) = (|i: usize| Span::at(y[i]), Flags::default());
     let (axis, kept) = (Axis::Position(&y), Curve { pyramid: &pyramid, span: &span });
-    let trace = Trace { axis, kept, flags: &flags, expected: None, band: None, repaired: None, gap: 1.5 };
+    let trace =
+        Trace { axis, kept, flags: &flags, expected: None, band: None, repaired: None, filtered: None, gap: 1.5 };
     // Quantiles at 10 and 9990, with 4 % of room; the others with the ends of the record.
     let close = |(a, b): (f64, f64), (c, d): (f64, f64)| (a - c).abs() < 1e-6 && (b - d).abs() < 1e-6;
     assert!(close(YFit::Robust.range(&trace, View::whole(axis)), (10.0 - 399.2, 9990.0 + 399.2)));
@@ -209,7 +210,7 @@ fn a_selection_marks_its_columns_and_those_between() {
 fn layers_can_be_switched_off_but_flags_cannot() {
     let (record, theme) = (gapped(), Theme::mono());
     let columns = gapped_columns(&record);
-    let none = Layers { raw: false, expected: false, band: false, repaired: false };
+    let none = Layers { raw: false, expected: false, band: false, repaired: false, filtered: false };
     let buffer = styled(TracePlot { layers: none, ..plot(&columns, &theme) });
     let strip = |line: &str| line.chars().skip(usize::from(GUTTER)).collect::<String>();
     let inked: String = text(&buffer).lines().map(strip).collect::<String>().replace(' ', "");

@@ -87,7 +87,7 @@ proptest! {
         let pyramid = Pyramid::build(&series.y, |_| false);
         let span = |i: usize| series.y.get(i).copied().map_or(Span::EMPTY, Span::at);
         let (kept, flags) = (Curve { pyramid: &pyramid, span: &span }, &Flags::default());
-        let trace = Trace { axis, kept, flags, expected: None, band: None, repaired: None, gap: 9.0 };
+        let trace = Trace { axis, kept, flags, expected: None, band: None, repaired: None, filtered: None, gap: 9.0 };
         let plot = width.saturating_sub(GUTTER);
         let columns = &Columns::new(&trace, Grid { view, y: (0.0, 1.0), width: plot, height: 1 });
         let found = steps.columns(columns, &series, max_gap);

@@ -14,19 +14,31 @@ use crate::error::{Error, Result};
 use crate::report::written::{self, Written};
 use crate::report::{Byline, Summary, diagnostics, flags, report};
 use crate::session::{
-    Analysed, FlagColumn, Plan, Session, Setup, changed, clean_sha256, document, flag_columns, write_cleaned,
-    write_flagged, write_flagged_columns,
+    Analysed, FlagColumn, OutputValue, Plan, Session, Setup, changed, clean_sha256, document, flag_columns, unfiltered,
+    write_cleaned, write_flagged, write_flagged_columns,
 };
 use crate::stop::Stop;
 use crate::track::{Changes, CopyForm, Outputs, Source, Track, copy_form, load, printable, write_columns};
 
+/// What is done with each record.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked<'a> {
+    /// How to load and judge it.
+    pub(super) shared: &'a Shared,
+    /// True where the suggested thresholds are taken.
+    pub(super) suggested: bool,
+    /// Which values the cleaned file has.
+    pub(super) value: OutputValue,
+}
+
 pub(super) fn run(
     files: &[PathBuf],
-    (shared, suggested): (&Shared, bool),
+    asked: &Asked<'_>,
     outputs: &OutputArgs,
     save_session: Option<&Path>,
     out: &mut dyn Write,
 ) -> Result<Ending> {
+    let Asked { shared, suggested, .. } = *asked;
     set_threads(shared.threads)?;
     let setup = if shared.is_auto() { shared.setup_before_choice()? } else { shared.setup()? };
     outputs.check_standard_output(save_session)?;
@@ -34,7 +46,7 @@ pub(super) fn run(
         suggest::check(shared, &setup)?;
     }
     let all: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
-    let work = |file: &Path, target: &Target| one(file, (shared, suggested), &setup, (target, &all));
+    let work = |file: &Path, target: &Target| one(file, asked, &setup, (target, &all));
     let targets = targets(files, outputs, save_session, file_name)?;
     if let ([file], [target]) = (files, targets.as_slice()) {
         let progress = Progress::new(1, outputs.quiet || outputs.json);
@@ -50,7 +62,7 @@ pub(super) fn run(
 
 fn one(
     file: &Path,
-    (shared, suggested): (&Shared, bool),
+    &Asked { shared, suggested, value }: &Asked<'_>,
     setup: &Setup,
     (target, inputs): (&Target, &[&Path]),
 ) -> Result<Summary> {
@@ -58,7 +70,7 @@ fn one(
     let mut options = shared.load.options(shared.rate.as_deref());
     options.beside.extend(shared.reference.clone());
     let track = load(&Source::of(file)?, &options)?;
-    let mut session = Session::new(&track, shared.load.options(None), setup);
+    let mut session = Session { value, ..Session::new(&track, shared.load.options(None), setup) };
     shared.prepare.prepare(&mut session, &track, shared.preset)?;
     // A rate channel that was loaded beside the named ones is not judged.
     if !shared.load.channel.is_empty() {
@@ -116,6 +128,7 @@ pub(super) fn stage(
     let changes = outputs.output.as_ref().map(|_| analysed.changes(track));
     let changed_cells = changes.as_ref().map(|changes| changes.cells.len());
     told.note(written::CLEANED, outputs.output.as_deref(), changed_cells);
+    summary.notes.extend(unfiltered(session, analysed));
     if let (Some(path), Some(changes)) = (&outputs.output, &changes) {
         stage_cleaned(files, (path, outputs), track, (analysed, changes), summary)?;
     }

@@ -84,7 +84,7 @@ pub(super) fn written(
     let row = Row::of("consensus", &outcome.counts, None, score);
     let mut session = Session::new(track, args.load.options(None), &setup);
     session.plans.retain(|p| p.channel == channel.name);
-    let analysed = Analysed { channels: vec![(index, samples.clone(), outcome)] };
+    let analysed = Analysed { channels: vec![(index, samples.clone(), outcome)], filtered: Vec::new() };
     let mut summary = Summary::of(track, &session, &analysed);
     let inputs: Vec<&Path> = track.source.path().into_iter().collect();
     let mut files = Outputs::new(args.outputs.force, &inputs).or_standard_output().dry(args.outputs.dry_run);

@@ -87,7 +87,7 @@ fn mark(text: &str) -> std::result::Result<String, String> {
 }
 
 /// One of the words for a value.
-fn worded<T: Worded>() -> impl TypedValueParser<Value = T> {
+pub(super) fn worded<T: Worded>() -> impl TypedValueParser<Value = T> {
     let words: Vec<&'static str> = T::WORDS.iter().map(|(word, _)| *word).collect();
     PossibleValuesParser::new(words).try_map(|word| T::of_word(&word).ok_or("not one of the words"))
 }

@@ -2,12 +2,16 @@
 //! after a least-squares trend has been taken off.
 
 use super::record::{Record, Signal, Wild};
-use super::reproduction::{Cell, Figures, Finding, Runs, Table};
-use super::shown::{Picture, show};
+use super::reproduction::{Figures, Finding, Runs, Table};
+use super::shown::show;
 use super::trial::{Trial, setup};
 use super::{Experiment, Published, Random};
 use crate::error::Result;
 use crate::session::Preset;
+
+pub(super) mod compared;
+
+use compared::{ALONE, Compared, Count, TREND};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment = Experiment {
@@ -24,19 +28,24 @@ pub const EXPERIMENT: Experiment = Experiment {
                    trend fitted once.",
         trial,
         conclude,
-        pictures: |record| show(record, &PICTURES),
+        pictures: |record| show(record, &compared::pictures(&BOTH, &[])),
         charts: super::no_charts,
     }),
 };
 
-/// The figures of the document.
-const PICTURES: [Picture; 2] = [
-    Picture { title: "Figure 2: Wright alone", method: "wright", preset: Preset::Paper, keys: &[] },
-    Picture {
+/// What the figures of the document show.
+const BOTH: [Compared; 2] = [
+    Compared {
+        method: ALONE,
+        figure: "figure 2",
+        said: "the tail of the signal cut, hardly an outlier found",
+        title: "Figure 2: Wright alone",
+    },
+    Compared {
+        method: TREND,
+        figure: "figure 5",
+        said: "nearly all found",
         title: "Figures 3 to 6: least-squares trend and Wright",
-        method: "trend-wright",
-        preset: Preset::Paper,
-        keys: &[],
     },
 ];
 
@@ -68,7 +77,6 @@ fn record(seed: u64) -> Record {
     Record::new(Signal::new("t_s", 2, t), vec![Signal::with_errors("x", 4, &clean, &errors)], wild)
 }
 
-const METHODS: [(&str, &str); 2] = [("wright", "figure 2"), ("trend-wright", "figure 5")];
 const FOUND: usize = 0;
 const FALSE: usize = 1;
 const CUT: usize = 2;
@@ -80,7 +88,7 @@ const PASSES: [(&str, &str); 4] = [("1 pass", "1"), ("2 passes", "2"), ("3 passe
 fn trial(record: &Record) -> Result<Figures> {
     let trial = Trial::of(record)?;
     let mut figures = Vec::new();
-    for (method, _) in METHODS {
+    for Compared { method, .. } in BOTH {
         let outcome = trial.judge(&setup(method, Preset::Paper, &[])?)?;
         let tally = trial.tally(&outcome);
         let cut = outcome.outliers.iter().filter(|&&i| TAIL.contains(&i) && record.wild[i].is_none()).count();
@@ -99,25 +107,15 @@ fn share(runs: Runs<'_>, label: &str) -> f64 {
 }
 
 fn conclude(runs: Runs<'_>) -> (Vec<Table>, Vec<Finding>) {
-    let said = |method: &str| {
-        if method == "wright" { "the tail of the signal cut, hardly an outlier found" } else { "nearly all found" }
-    };
-    let row = |(method, figure): &(&'static str, &'static str)| {
-        vec![
-            Cell::text(*method),
-            Cell::text(*figure),
-            Cell::text(said(method)),
-            Cell::number(runs.mean(method, FOUND), 1),
-            Cell::number(share(runs, method), 1),
-            Cell::number(runs.mean(method, FALSE), 1),
-            Cell::number(runs.mean(method, CUT), 1),
-        ]
-    };
-    let table = Table {
-        title: "Figures 2 and 5 as counts: 1000 samples, 20 outliers".into(),
-        columns: vec!["method", "figure", "the document", "found", "found %", "false", "good in the tail cut"],
-        rows: METHODS.iter().map(row).collect(),
-    };
+    let mean = |column: usize| move |runs: Runs<'_>, method: &str| runs.mean(method, column);
+    let counts = [
+        Count { name: "found", of: &mean(FOUND), decimals: 1 },
+        Count { name: "found %", of: &share, decimals: 1 },
+        Count { name: "false", of: &mean(FALSE), decimals: 1 },
+        Count { name: "good in the tail cut", of: &mean(CUT), decimals: 1 },
+    ];
+    let title = "Figures 2 and 5 as counts: 1000 samples, 20 outliers".into();
+    let table = compared::table(title, &BOTH, &counts, runs);
     (vec![table], findings(runs))
 }
 

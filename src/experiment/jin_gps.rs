@@ -3,9 +3,10 @@
 
 use std::path::Path;
 
+use super::jin::compared::{self, ALONE, Compared, Count, TREND};
 use super::record::{Record, Signal, Wild};
-use super::reproduction::{Cell, Figures, Finding, Runs, Table};
-use super::shown::{Picture, show};
+use super::reproduction::{Figures, Finding, Runs, Table};
+use super::shown::show;
 use super::trial::{Trial, setup};
 use super::{Experiment, Published, Random};
 use crate::error::Result;
@@ -26,24 +27,30 @@ pub const EXPERIMENT: Experiment = Experiment {
         runs: 1,
         stand_in: "The document's GPS record of a flight, 50 Hz, is in figures only. Where the working folder has \
                    ../shared/data/gnss_daily_kmin.csv, its north position stands in: 19 years of daily positions with a \
-                   drift of 0.85 m; wild is what lies 4 robust deviations or more from the median of 41 days around. \
+                   drift of 0.85 m; wild is what lies 4 robust deviations or more from the median of 41 days around (ours: the \
+                   document calls wild what lies 3 off, which normal noise does 19 times among that number), and there are few of them. \
                    Elsewhere a simulated one: x = 2000 + 150 t - 2 t^2 over 40 s at 50 Hz with noise of 1 m, 5 % of the \
                    samples 10 to 60 m off. Paper settings, one trend for the whole record.",
         trial,
         conclude,
-        pictures: |record| show(&judged(record).0, &PICTURES),
+        pictures: |record| show(&judged(record).0, &compared::pictures(&BOTH, &[WHOLE])),
         charts: super::no_charts,
     }),
 };
 
-/// The figures of the document.
-const PICTURES: [Picture; 2] = [
-    Picture { title: "Figures 7 and 8: Wright alone", method: "wright", preset: Preset::Paper, keys: &[WHOLE] },
-    Picture {
+/// What the figures of the document show.
+const BOTH: [Compared; 2] = [
+    Compared {
+        method: ALONE,
+        figure: "figure 8",
+        said: "hardly an outlier removed, useful data lost",
+        title: "Figures 7 and 8: Wright alone",
+    },
+    Compared {
+        method: TREND,
+        figure: "figure 11",
+        said: "very good",
         title: "Figures 9 to 12: least-squares trend and Wright",
-        method: "trend-wright",
-        preset: Preset::Paper,
-        keys: &[WHOLE],
     },
 ];
 
@@ -73,6 +80,11 @@ fn record(seed: u64) -> Record {
     Record::new(Signal::new("t_s", 2, t), vec![Signal::with_errors("x_m", 3, &clean, &errors)], wild)
 }
 
+/// What counts as wild on the real record, in robust deviations from the median around. \[002\] calls wild what lies three
+/// deviations off or more, which normal noise does 19 times among 7000 samples; at four it does so 0.4 times. The number
+/// is ours.
+const WILD_FROM: &str = "4";
+
 /// The real record, where it is there and can be read.
 fn real(path: &Path) -> Option<Record> {
     if !path.is_file() {
@@ -82,7 +94,7 @@ fn real(path: &Path) -> Option<Record> {
     let series = track.channel(CHANNEL)?.series(&track.time);
     let method = &hampel::Hampel;
     let mut settings = Settings::defaults(crate::method::Method::about(method).params);
-    for (key, text) in [("window", "41"), ("k", "4"), ("floor", "auto"), ("max_gap", "off")] {
+    for (key, text) in [("window", "41"), ("k", WILD_FROM), ("floor", "auto"), ("max_gap", "off")] {
         settings.set_text("hampel", key, text).ok()?;
     }
     let judged = judge_channel(method, &series, None, &settings, &Stop::never()).ok()?;
@@ -97,7 +109,6 @@ fn judged(simulated: &Record) -> (Record, bool) {
     real(Path::new(REAL)).map_or_else(|| (simulated.clone(), false), |real| (real, true))
 }
 
-const METHODS: [(&str, &str); 2] = [("wright", "figure 8"), ("trend-wright", "figure 11")];
 const WHOLE: (&str, &str) = ("max_gap", "off");
 const WILD: usize = 0;
 const FOUND: usize = 1;
@@ -115,32 +126,23 @@ fn trial(simulated: &Record) -> Result<Figures> {
 #[expect(clippy::cast_precision_loss, reason = "counts of some thousand samples")]
 fn figures(record: &Record) -> Result<Figures> {
     let trial = Trial::of(record)?;
-    let figures = |(method, _): (&'static str, &str)| {
+    let figures = |Compared { method, .. }: Compared| {
         let tally = trial.tally(&trial.judge(&setup(method, Preset::Paper, &[WHOLE])?)?);
         let counts = [tally.hits() + tally.missed, tally.hits(), tally.false_alarms].map(|n| n as f64);
         Ok((method, counts.to_vec()))
     };
-    METHODS.into_iter().map(figures).collect()
+    BOTH.into_iter().map(figures).collect()
 }
 
 fn conclude(runs: Runs<'_>) -> (Vec<Table>, Vec<Finding>) {
     let which = if runs.mean(IS_REAL, 0) > 0.5 { REAL } else { "simulated" };
-    let row = |(method, figure): &(&'static str, &'static str)| {
-        let said = if *method == "wright" { "hardly an outlier removed, useful data lost" } else { "very good" };
-        vec![
-            Cell::text(*method),
-            Cell::text(*figure),
-            Cell::text(said),
-            Cell::number(runs.mean(method, WILD), 0),
-            Cell::number(runs.mean(method, FOUND), 0),
-            Cell::number(runs.mean(method, FALSE), 0),
-        ]
-    };
-    let table = Table {
-        title: format!("Figures 8 and 11 as counts, on {which}"),
-        columns: vec!["method", "figure", "the document", "wild", "found", "others flagged"],
-        rows: METHODS.iter().map(row).collect(),
-    };
+    let mean = |column: usize| move |runs: Runs<'_>, method: &str| runs.mean(method, column);
+    let counts = [
+        Count { name: "wild", of: &mean(WILD), decimals: 0 },
+        Count { name: "found", of: &mean(FOUND), decimals: 0 },
+        Count { name: "others flagged", of: &mean(FALSE), decimals: 0 },
+    ];
+    let table = compared::table(format!("Figures 8 and 11 as counts, on {which}"), &BOTH, &counts, runs);
     let share = |method: &str| 100.0 * runs.mean(method, FOUND) / runs.mean(method, WILD);
     let findings = vec![
         Finding::new(
@@ -173,6 +175,7 @@ fn conclude(runs: Runs<'_>) -> (Vec<Table>, Vec<Finding>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::experiment::Held;
 
     /// A trend of 4,250 m hides 60 m from three deviations; a parabola is taken off exactly.
     #[test]
@@ -181,6 +184,22 @@ mod tests {
         let of = |method: &str| figures.iter().find(|f| f.0 == method).unwrap().1.clone();
         assert_eq!(of("wright")[WILD], 100.0);
         assert!(of("wright")[FOUND] < 5.0 && of("trend-wright")[FOUND] > 90.0, "{figures:?}");
+    }
+
+    /// Each statement on the simulated record: what hides in a trend of 4,250 m is found without it. Three deviations of a
+    /// parabola (sqrt(5) = 2.236 at its end) cut off none of its useful data.
+    #[test]
+    fn the_statements_on_the_simulated_record() {
+        let mut figures = figures(&record(1)).unwrap();
+        figures.push((IS_REAL, vec![0.0]));
+        let (_, findings) = conclude(Runs(&[figures]));
+        let held: Vec<(&str, Held)> = findings.iter().map(|finding| (finding.id, finding.held)).collect();
+        let wanted = [
+            ("wright-removes-hardly-any", Held::Yes),
+            ("wright-loses-data", Held::No),
+            ("trend-and-wright-very-good", Held::Yes),
+        ];
+        assert_eq!(held, wanted);
     }
 
     #[test]

@@ -98,6 +98,16 @@ impl<'a> Trial<'a> {
         Ok(settle(&self.track, channel, &self.samples, Arc::new(detection), &decisions, &stop)?)
     }
 
+    /// The filtered track of a result.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] when its method has no model of the track.
+    pub fn filtered(&self, outcome: &Outcome) -> Result<Vec<f64>> {
+        let filtered = crate::analysis::filtered(outcome, &self.series(), &Stop::never())?;
+        let none = || Error::usage("no model of the track", "this is a fault of the program: report it");
+        filtered.map(|filtered| filtered.value).ok_or_else(none)
+    }
+
     /// What `outcome` found.
     #[must_use]
     pub fn tally(&self, outcome: &Outcome) -> Tally {

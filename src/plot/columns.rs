@@ -33,6 +33,8 @@ pub struct Trace<'a> {
     pub band: Option<Curve<'a>>,
     /// Repaired values at the samples that have one; empty spans at the others.
     pub repaired: Option<Curve<'a>>,
+    /// The filtered track.
+    pub filtered: Option<Curve<'a>>,
     /// Neighbours further apart than so many seconds are not joined; infinity joins all.
     pub gap: f64,
 }
@@ -101,6 +103,7 @@ pub struct Columns {
     pub(crate) expected: Dots,
     pub(crate) band: Dots,
     pub(crate) repaired: Dots,
+    pub(crate) filtered: Dots,
     pub(crate) flag_dots: Dots,
     /// The most urgent flag drawn in each cell, row by row.
     pub(crate) flag_cells: Vec<Option<FlagState>>,
@@ -116,11 +119,13 @@ impl Columns {
         let scale = YScale::new(grid.y.0, grid.y.1, grid.height);
         let stroke = stroke::Stroke::new(trace.axis, grid, &starts, scale, trace.gap);
         let blank = || Dots::new(grid.width, grid.height);
-        let (mut raw, mut expected, mut band, mut repaired) = (blank(), blank(), blank(), blank());
+        let [mut raw, mut expected, mut band, mut repaired, mut filtered] = std::array::from_fn(|_| blank());
         let kept = stroke.spans(Some(&trace.kept));
         stroke.draw(&mut raw, Some(&trace.kept), &kept, |span| span);
         let spans = stroke.spans(trace.expected.as_ref());
         stroke.draw(&mut expected, trace.expected.as_ref(), &spans, |span| span);
+        let spans = stroke.spans(trace.filtered.as_ref());
+        stroke.draw(&mut filtered, trace.filtered.as_ref(), &spans, |span| span);
         let spans = stroke.spans(trace.band.as_ref());
         // The edges of nothing are nothing.
         let edge = |span: Span, value: f64| if span.is_empty() { Span::EMPTY } else { Span::at(value) };
@@ -140,6 +145,7 @@ impl Columns {
             expected,
             band,
             repaired,
+            filtered,
             flag_dots: marks.dots,
             flag_cells: marks.cells,
             sparse: trace.flags.count_in(&in_view) * 3 <= usize::from(grid.width),

@@ -103,7 +103,7 @@ mod tests {
         let kept = Curve { pyramid: &pyramid, span: &span };
         let axis = Axis::Time(&series.t);
         let (flags, gap) = (&Flags::default(), f64::INFINITY);
-        let trace = Trace { axis, kept, flags, expected: None, band: None, repaired: None, gap };
+        let trace = Trace { axis, kept, flags, expected: None, band: None, repaired: None, filtered: None, gap };
         let columns = Columns::new(&trace, Grid { view, y: (0.0, 1.0), width, height: 1 });
         let found = steps.columns(&columns, &series, max_gap);
         (steps, found)

@@ -102,6 +102,7 @@ impl Subject<'_> {
             expected: Some(Curve { pyramid: &d.expected, span: &expected }),
             band: Some(Curve { pyramid: &d.band, span: &band }),
             repaired: Some(Curve { pyramid: &d.repaired, span: &repaired }),
+            filtered: None,
             gap: self.gap,
         })
     }

@@ -40,6 +40,7 @@ pub enum Action {
     Last,
     YFit,
     Layers,
+    FilteredTrack,
     BeforeAfter,
     XAxis,
     NextLower,

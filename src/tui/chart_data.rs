@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::model::{ChannelState, Model, YMode};
 use super::plot::{Axis, Columns, Curve, Flags, Grid, Layers, Memo, Pyramid, Span, Trace, View, YFit};
+use super::smoothing::FilteredTrack;
 use crate::method::shared::MAX_GAP;
 use crate::plot::{Drawn, StepColumn, Steps};
 use crate::score::Score;
@@ -29,6 +30,8 @@ struct Key {
     result: u64,
     layers: Layers,
     after: bool,
+    /// Whether there is a filtered track to draw.
+    filtered: bool,
     by_number: bool,
     view: View,
     fit: YFit,
@@ -124,7 +127,12 @@ impl<'a> Picture<'a> {
 
     fn key(&self, layers: Layers, view: View, fit: YFit, size: (u16, u16)) -> Key {
         let (result, by_number, gap) = (self.state.results, self.by_number, self.gap);
-        Key { result, layers, after: false, by_number, view, fit, size, gap }
+        Key { result, layers, after: false, filtered: self.filtered().is_some(), by_number, view, fit, size, gap }
+    }
+
+    /// The filtered track of the result, where it has been worked out.
+    fn filtered(&self) -> Option<&FilteredTrack> {
+        self.state.smoothed.as_ref()?.track_of(self.state.results)
     }
 
     fn columns(&self, memo: &Memo<Key, Columns>, key: Key) -> Arc<Columns> {
@@ -169,7 +177,7 @@ impl<'a> Picture<'a> {
             let plain = self.state.pictures.plain.get((), || Pyramid::build(y, |_| false));
             let span = |i: usize| y.get(i).copied().map_or(Span::EMPTY, Span::at);
             let (kept, flags) = (Curve { pyramid: &plain, span: &span }, &self.no_flags);
-            return draw(&Trace { axis, kept, flags, expected: None, band: None, repaired: None, gap });
+            return draw(&Trace { axis, kept, flags, expected: None, band: None, repaired: None, filtered: None, gap });
         };
         let kept = |i: usize| d.kept_span(&self.series, i);
         let whole = |i: usize| d.after_span(&self.series, i);
@@ -179,8 +187,19 @@ impl<'a> Picture<'a> {
         if after {
             let kept = Curve { pyramid: &d.after, span: &whole };
             let repaired = Some(Curve { pyramid: &d.repaired, span: &repaired });
-            return draw(&Trace { axis, kept, flags: &self.no_flags, expected: None, band: None, repaired, gap });
+            return draw(&Trace {
+                axis,
+                kept,
+                flags: &self.no_flags,
+                expected: None,
+                band: None,
+                repaired,
+                filtered: None,
+                gap,
+            });
         }
+        let filtered = self.filtered();
+        let smooth = |i: usize| filtered.map_or(Span::EMPTY, |track| track.span(i));
         let with = |on: bool, pyramid, span| on.then_some(Curve { pyramid, span });
         draw(&Trace {
             axis,
@@ -189,6 +208,9 @@ impl<'a> Picture<'a> {
             expected: with(layers.expected, &d.expected, &expected),
             band: with(layers.band, &d.band, &band),
             repaired: with(layers.repaired, &d.repaired, &repaired),
+            filtered: filtered
+                .zip(layers.filtered.then_some(()))
+                .map(|(track, ())| Curve { pyramid: &track.pyramid, span: &smooth }),
             gap,
         })
     }

@@ -17,6 +17,7 @@ use super::message::{Effect, Message, Written};
 use super::model::{Model, Overlay};
 use super::session_guard::Known;
 use super::survey::{self, Survey};
+use super::smoothing;
 use super::terminal::Screen;
 use super::update::update;
 use super::watch::Watch;
@@ -45,6 +46,7 @@ pub(super) struct Outside {
     poller: Worker<Poll>,
     study_worker: Worker<detectability::Job>,
     surveyor: Worker<Survey>,
+    smoother: Worker<smoothing::Job>,
     sender: Sender<Message>,
     pub(super) messages: Receiver<Message>,
     pub(super) journal: Journal,
@@ -73,6 +75,7 @@ impl Outside {
         let poller = consensus::poll(sender.clone());
         let study_worker = detectability::study(sender.clone());
         let surveyor = survey::survey(sender.clone());
+        let smoother = smoothing::smooth(sender.clone());
         let desk = Desk::new(sender.clone(), folder.as_deref());
         let known = Known::default();
         sessions(model).into_iter().for_each(|file| known.read(file));
@@ -84,6 +87,7 @@ impl Outside {
             poller,
             study_worker,
             surveyor,
+            smoother,
             sender,
             messages,
             journal,
@@ -149,7 +153,12 @@ impl Outside {
         if saved {
             self.journal.saved(model);
         }
-        self.carry_out(model, screen, effects)
+        let next = self.carry_out(model, screen, effects)?;
+        // What the screen shows of a result may have changed with any message.
+        if let Some(job) = smoothing::Job::wanted(model) {
+            self.smoother.submit(job);
+        }
+        Ok(next)
     }
 
     pub(super) fn carry_out(&mut self, model: &mut Model, screen: &mut Screen, effects: Vec<Effect>) -> Result<Next> {
@@ -161,6 +170,8 @@ impl Outside {
                     self.advisor.cancel();
                     self.advising = false;
                     self.study_worker.cancel();
+                    self.smoother.cancel();
+                    model.smoothing = None;
                     model.awaited = Some(self.worker.submit(Judge::new(model, plan).with_steps(model)));
                 }
                 Effect::Advise(plan) => {

@@ -151,6 +151,7 @@ pub static KEYMAP: &[Binding] = {
         row(View, &["g b"], A::AdoptPinned, "back to the settings of A (one undo step)", ""),
         row(View, &["V"], A::Second, "second channel beside this one (160 columns or more)", ""),
         row(View, &["t"], A::Layers, "layers: all, no band, curve only (:layers -raw)", ""),
+        row(View, &["T"], A::FilteredTrack, "filtered track: show what the method's model makes of the samples", ""),
         row(View, &["b"], A::BeforeAfter, "before and after repair", ""),
         row(View, &["d"], A::NextChannel, "next channel", "channel"),
         row(View, &["D"], A::Channels, "choose a channel from a list", ""),

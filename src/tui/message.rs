@@ -10,6 +10,7 @@ use super::consensus::Consensus;
 use super::detectability::{Finding, Subject};
 use super::files::{News, Task};
 use super::survey::ChannelSummary;
+use super::smoothing::Smoothed;
 use crate::error::{Error, Result};
 use crate::plot::Drawn;
 use crate::track::Standing;
@@ -85,6 +86,8 @@ pub enum Message {
         /// The changes, and what they were found for.
         steps: Box<Steps>,
     },
+    /// The result on the screen was smoothed.
+    Smoothed(Box<Smoothed>),
     /// There is nothing to sweep under the settings as they were.
     NoAdvice,
     /// A file was written, or not.

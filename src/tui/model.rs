@@ -13,6 +13,7 @@ use super::detectability::Studying;
 use super::files::Request;
 use super::keys::Keys;
 use super::plot::{Axis, Glyphs, View};
+use super::smoothing;
 use super::theme::Theme;
 use super::words;
 use crate::param::Param;
@@ -98,6 +99,8 @@ pub struct Model {
     pub second: Second,
     /// How far all methods have been asked.
     pub polling: Option<Polling>,
+    /// What was asked last about smoothing a result.
+    pub smoothing: Option<smoothing::Question>,
     /// The measurement of detectability that is under way.
     pub studying: Option<Studying>,
     /// The job that judges channels for the overview.
@@ -195,6 +198,7 @@ impl Model {
             lower: Lower::default(),
             second: Second::default(),
             polling: None,
+            smoothing: None,
             studying: None,
             surveying: None,
             by_number: false,

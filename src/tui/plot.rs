@@ -25,7 +25,7 @@
 //! let span = |i: usize| if hidden(i) { Span::EMPTY } else { Span::at(y[i]) };
 //! let kept = Curve { pyramid: &pyramid, span: &span };
 //! let axis = Axis::Time(&t);
-//! let trace = Trace { axis, kept, flags: &flags, expected: None, band: None, repaired: None, gap: 3.5 };
+//! let trace = Trace { axis, kept, flags: &flags, expected: None, band: None, repaired: None, filtered: None, gap: 3.5 };
 //! let area = Rect::new(0, 0, 40, 9);
 //! let Rect { width, height, .. } = TracePlot::plot_area(area);
 //! let view = View::whole(axis);

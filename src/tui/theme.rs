@@ -47,6 +47,8 @@ pub struct Theme {
     pub band: Style,
     /// Repaired values.
     pub repaired: Style,
+    /// The filtered track.
+    pub filtered: Style,
     /// A flag nobody has decided on.
     pub flag_unreviewed: Style,
     /// A flag accepted as an outlier.
@@ -156,6 +158,7 @@ impl Theme {
             expected: dim,
             band: dim,
             repaired: plain.add_modifier(Modifier::ITALIC),
+            filtered: dim.add_modifier(Modifier::ITALIC),
             flag_unreviewed: bold,
             flag_accepted: bold.add_modifier(Modifier::ITALIC),
             flag_rejected: dim.add_modifier(Modifier::ITALIC),
@@ -188,6 +191,7 @@ impl Theme {
             expected: fg(ground.expected),
             band: fg(ground.band),
             repaired: fg(ground.repaired),
+            filtered: fg(BLUISH_GREEN),
             flag_unreviewed: bold(fg(VERMILLION)),
             flag_accepted: fg(BLUISH_GREEN),
             flag_rejected: fg(ground.dim),

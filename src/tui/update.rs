@@ -108,6 +108,11 @@ fn take(model: &mut Model, message: Message) -> Vec<Effect> {
             model.channels[plan].steps = Some(*steps);
             Vec::new()
         }
+        Message::Smoothed(smoothed) => {
+            let state = &mut model.channels[smoothed.question.plan()];
+            state.smoothed = Some(*smoothed);
+            Vec::new()
+        }
         Message::NoAdvice => Vec::new(),
         Message::Polling { generation, done } => {
             consensus::polling(model, generation, done);

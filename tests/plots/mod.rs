@@ -59,6 +59,7 @@ impl Record {
             expected: Some(Curve { pyramid: &b, span: &expected }),
             band: Some(Curve { pyramid: &c, span: &band }),
             repaired: Some(Curve { pyramid: &d, span: &repaired }),
+            filtered: None,
             gap,
         })
     }

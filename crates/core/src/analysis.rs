@@ -18,6 +18,7 @@ use crate::setup::Setup;
 use crate::stop::{Stop, Stopped};
 
 mod doubts;
+mod filtered;
 mod gaps;
 mod outcome;
 mod serialize;
@@ -25,6 +26,7 @@ mod sight;
 #[cfg(test)]
 mod tests;
 
+pub use filtered::filtered;
 use gaps::{GapPlaces, gaps_to_fill};
 pub use outcome::{Counts, Fill, Mark, Outcome, Place, Run};
 use sight::{By, Sight, Taught, taught};

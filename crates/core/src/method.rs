@@ -17,6 +17,7 @@ pub mod adaptive;
 pub mod alpha_beta_gamma;
 pub mod chauvenet;
 pub mod diff_median;
+pub mod filtered;
 pub mod five_point;
 mod gated;
 pub mod gesd;
@@ -43,6 +44,7 @@ mod verdict;
 mod window;
 pub mod wright;
 
+pub use filtered::{Filter, Filtered, Settled};
 pub use gated::{Gated, Record};
 pub use judged::{Damaged, Directions, Judged, Part};
 pub use segment::{Rate, Segment, zero_scale, zero_scale_of_many};
@@ -187,6 +189,12 @@ pub trait Method: Sync {
             Own::Remove => f64::NAN,
             Own::Expected => own(n),
         })
+    }
+
+    /// The model that smooths the track under these settings; none where the method has no model of it.
+    fn filter(&self, settings: &Settings) -> Option<&'static dyn Filter> {
+        let _ = settings;
+        None
     }
 
     /// What should be known of the `own` repair of these outliers, one line each.

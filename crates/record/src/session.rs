@@ -18,6 +18,7 @@ mod edit;
 mod flag_columns;
 pub mod flags;
 pub mod journal;
+mod output_value;
 mod position;
 mod replay;
 mod save;
@@ -36,6 +37,7 @@ pub use digest::Digest;
 pub use document::{parse, read, render};
 pub use edit::Edit;
 pub use flag_columns::{FlagColumn, flag_columns, write_flagged, write_flagged_columns};
+pub use output_value::{OutputValue, check_value, filtered, unfiltered};
 pub use position::position_check;
 pub use replay::{Accepted, Analysed, Appended, Grown, Opened, check, open, open_all};
 pub use save::{document, document_without_record};
@@ -55,6 +57,8 @@ pub struct Session {
     pub data: Data,
     /// One plan for each channel that is worked on.
     pub plans: Vec<Plan>,
+    /// Which values the cleaned file has.
+    pub value: OutputValue,
     /// What came out when it was saved.
     pub result: Option<Recorded>,
 }
@@ -131,6 +135,7 @@ impl Session {
                 options,
             },
             plans: track.channels.iter().map(|c| plan(&c.name)).collect(),
+            value: OutputValue::default(),
             result: None,
         }
     }

@@ -9,6 +9,7 @@ use super::super::consensus::Consensus;
 use super::super::detectability::{MeasuredSetting, Studied};
 use super::super::plot::{Axis, Flags, Layers, View};
 use super::super::survey::ChannelSummary;
+use super::super::smoothing::Smoothed;
 use super::Group;
 use crate::param::Settings;
 use crate::plot::{Drawn, Sides};
@@ -68,6 +69,8 @@ pub struct ChannelState {
     pub studied: Option<Arc<Studied>>,
     /// The same of the settings that were in force then.
     pub measured: Option<Arc<MeasuredSetting>>,
+    /// The latest result that was smoothed.
+    pub smoothed: Option<Smoothed>,
     /// Why no known wild points can be tried on this channel.
     pub unmeasurable: Option<String>,
     /// What the overview tells of it, as of the last time it was judged there; or why it could not be.
@@ -138,12 +141,13 @@ impl ChannelState {
             view,
             views: Vec::new(),
             y_fit: YMode::default(),
-            layers: Layers::ALL,
+            layers: Layers::USUAL,
             after: false,
             pinned: None,
             consensus: None,
             studied: None,
             measured: None,
+            smoothed: None,
             unmeasurable: None,
             summary: None,
             summary_stale: true,

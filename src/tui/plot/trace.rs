@@ -24,14 +24,19 @@ pub struct Layers {
     pub band: bool,
     /// Repaired values.
     pub repaired: bool,
+    /// The track that the method's model makes of the samples.
+    pub filtered: bool,
 }
 
 impl Layers {
     /// All of them.
-    pub const ALL: Self = Self { raw: true, expected: true, band: true, repaired: true };
+    pub const ALL: Self = Self { filtered: true, ..Self::USUAL };
+
+    /// Those that are shown unless others are asked for.
+    pub const USUAL: Self = Self { raw: true, expected: true, band: true, repaired: true, filtered: false };
 
     /// The curve alone.
-    pub const RAW: Self = Self { raw: true, expected: false, band: false, repaired: false };
+    pub const RAW: Self = Self { raw: true, expected: false, band: false, repaired: false, filtered: false };
 
     /// None of them.
     pub const NONE: Self = Self { raw: false, ..Self::RAW };
@@ -125,6 +130,10 @@ impl TracePlot<'_> {
         let repaired = shown(self.layers.repaired, columns.repaired.mask(c, r));
         if repaired != 0 {
             return Some((glyphs.layer(repaired | raw, '='), theme.repaired));
+        }
+        let filtered = shown(self.layers.filtered, columns.filtered.mask(c, r));
+        if filtered != 0 {
+            return Some((glyphs.layer(filtered | raw, '~'), theme.filtered));
         }
         if raw != 0 {
             return Some((glyphs.dots(raw), theme.raw));

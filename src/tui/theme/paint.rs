@@ -52,6 +52,7 @@ pub static ROLES: &[Role] = &[
     fore("expected", "the expected value", |t| &mut t.expected),
     fore("band", "the edges of the tolerance band", |t| &mut t.band),
     fore("repaired", "repaired values", |t| &mut t.repaired),
+    fore("filtered", "the filtered track", |t| &mut t.filtered),
     fore("flag_unreviewed", "a flag without a decision", |t| &mut t.flag_unreviewed),
     fore("flag_accepted", "an accepted flag", |t| &mut t.flag_accepted),
     fore("flag_rejected", "a rejected flag", |t| &mut t.flag_rejected),

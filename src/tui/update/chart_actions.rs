@@ -14,6 +14,7 @@ pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
     match action {
         Action::YFit => next_y_fit(model),
         Action::Layers => next_layers(model),
+        Action::FilteredTrack => filtered(model),
         Action::BeforeAfter => {
             let after = !model.state().after;
             model.state_mut().after = after;
@@ -74,27 +75,45 @@ pub(super) fn y_command(model: &mut Model, text: &str) -> Result<Vec<Effect>, St
 type Switch = fn(&mut Layers) -> &mut bool;
 
 /// The layers by name.
-const LAYERS: [(&str, Switch); 4] = [
+const LAYERS: [(&str, Switch); 5] = [
     ("raw", |l| &mut l.raw),
     ("expected", |l| &mut l.expected),
     ("band", |l| &mut l.band),
     ("repaired", |l| &mut l.repaired),
+    ("filtered", |l| &mut l.filtered),
 ];
 
 fn next_layers(model: &mut Model) {
-    let next = match model.state().layers {
-        Layers::ALL => Layers { band: false, ..Layers::ALL },
+    let filtered = model.state().layers.filtered;
+    let next = match (Layers { filtered: false, ..model.state().layers }) {
+        Layers::USUAL => Layers { band: false, ..Layers::USUAL },
         Layers { raw: true, expected: true, band: false, .. } => Layers::RAW,
-        _ => Layers::ALL,
+        _ => Layers::USUAL,
     };
     let state = model.state_mut();
-    (state.layers, state.after) = (next, false);
+    (state.layers, state.after) = (Layers { filtered, ..next }, false);
     let words = match next {
-        Layers::ALL => "curve, tolerance band and repair",
+        Layers::USUAL => "curve, tolerance band and repair",
         Layers::RAW => "curve alone",
         _ => "curve, expected value and repair",
     };
     model.say(Tone::Done, words);
+}
+
+/// Shows the filtered track, or hides it.
+fn filtered(model: &mut Model) {
+    let setup = &model.plan().setup;
+    let about = setup.method.filter(&setup.settings).map(crate::method::Filter::about);
+    let id = setup.method.about().id;
+    let state = model.state_mut();
+    state.layers.filtered = !state.layers.filtered && about.is_some();
+    state.after = false;
+    let on = state.layers.filtered;
+    match about {
+        Some(about) if on => model.say(Tone::Done, format!("filtered track: {about}")),
+        Some(_) => model.say(Tone::Done, "without the filtered track"),
+        None => model.say(Tone::Warning, format!("{id} has no model of the track to show")),
+    }
 }
 
 /// The names of the layers that are on.

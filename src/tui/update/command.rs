@@ -101,7 +101,7 @@ pub static COMMANDS: &[Command] = &[
     command(
         "layers",
         "[+-]NAME ...",
-        "show these layers: raw, expected, band, repaired",
+        "show these layers: raw, expected, band, repaired, filtered",
         chart_actions::layers_command,
     ),
     command("command-line", "[CLEANED]", "copy the equivalent command", |m, a| Ok(command_line::show(m, path(a)))),

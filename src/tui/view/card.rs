@@ -8,12 +8,14 @@ use ratatui::widgets::Widget;
 use super::super::action::{Action, Panel};
 use super::super::model::{Model, Unit};
 use super::super::plot::{FlagState, Glyphs};
+use super::super::smoothing::Smoothed;
 use super::super::update::mark_at;
 use super::queue::ratio_text;
 use super::{NOT_JUDGED, clear, compare, fit, heading, several_days, short};
 use crate::method::{Direction, Verdict};
 use crate::plot::{Drawn, state};
 use crate::review::Decision;
+use crate::score::SplineResidual;
 use crate::session::{Mark, signature_words};
 use crate::track::{Series, printable};
 
@@ -98,6 +100,9 @@ fn heading_words(model: &Model, mark: Option<&Mark>) -> Vec<Span<'static>> {
     if let Some(words) = why(model) {
         spans.push(Span::styled(format!("{}  ", fit(&words, NOTE)), theme.dim));
     }
+    if let Some(residual) = Smoothed::of(model).and_then(|smoothed| smoothed.residual) {
+        spans.push(Span::styled(format!("{}  ", residual_words(model, &residual)), theme.dim));
+    }
     if model.review.unit == Unit::Run {
         spans.push(Span::styled("run by run  ", theme.title));
     }
@@ -105,6 +110,12 @@ fn heading_words(model: &Model, mark: Option<&Mark>) -> Vec<Span<'static>> {
         spans.push(Span::styled("auto-advance off  ", theme.title));
     }
     spans
+}
+
+/// The residual of eq. (2) of \[000\] before the repair and after it.
+fn residual_words(model: &Model, residual: &SplineResidual) -> String {
+    let arrow = if model.glyphs == Glyphs::Unicode { "→" } else { "->" };
+    format!("residual {} {arrow} {}", rounded(residual.before), rounded(residual.after))
 }
 
 /// Who has decided on the sample under the cursor, and why; none where nobody has.

@@ -12,6 +12,7 @@ use super::super::model::{Model, YMode};
 use super::super::plot::{
     AxisLabels, Columns, Cursor, FlagRail, Layers, Overview, SideMarks, SideRail, TickSteps, TracePlot, View,
 };
+use super::super::smoothing::Smoothed;
 use super::super::update::layer_names;
 use super::{compare, heading, thousands};
 use crate::plot::TimeTicks;
@@ -67,7 +68,7 @@ impl<'a> Plots<'a> {
     /// After repair, the curve is what the picture is about.
     fn layers(&self) -> Layers {
         let state = self.model.state();
-        if state.after { Layers::ALL } else { state.layers }
+        if state.after { Layers::USUAL } else { state.layers }
     }
 
     fn trace_words(&self, columns: &Columns, note: &str) -> Vec<String> {
@@ -90,9 +91,9 @@ impl<'a> Plots<'a> {
             YMode::Robust => "y: robust  ",
             YMode::Fixed(..) => "y: fixed  ",
         };
-        let layers = match state.layers {
+        let layers = match (Layers { filtered: false, ..state.layers }) {
             _ if state.after => "AFTER REPAIR  ".to_owned(),
-            Layers::ALL => String::new(),
+            Layers::USUAL => String::new(),
             Layers::RAW => "curve alone  ".to_owned(),
             Layers { raw: true, expected: true, repaired: true, .. } => "with expected  ".to_owned(),
             other => match layer_names(other).join(", ") {
@@ -100,7 +101,12 @@ impl<'a> Plots<'a> {
                 names => format!("{names}  "),
             },
         };
-        words.extend([fit.to_owned(), layers].into_iter().filter(|w| !w.is_empty()));
+        let filtered = match Smoothed::of(self.model).map(|smoothed| smoothed.track.is_some()) {
+            _ if state.after || !state.layers.filtered => "",
+            Some(true) => "with filtered track  ",
+            Some(false) | None => "filtered track: none yet  ",
+        };
+        words.extend([fit.to_owned(), layers, filtered.to_owned()].into_iter().filter(|w| !w.is_empty()));
         words
     }
 

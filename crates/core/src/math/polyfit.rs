@@ -1,4 +1,5 @@
-//! Least-squares polynomials by orthogonal polynomials (Forsythe 1957): stable on any times, no normal equations.
+//! Least-squares polynomials by orthogonal polynomials (Forsythe 1957): stable on any times, no normal equations. By hand:
+//! nalgebra's QR of the same columns sums in another order, which would change the last bits of saved results.
 
 mod long;
 

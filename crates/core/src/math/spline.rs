@@ -1,4 +1,5 @@
-//! The natural cubic spline through given points.
+//! The natural cubic spline through given points. By hand: a tridiagonal system, which
+//! nalgebra would solve as a dense one.
 
 /// A natural cubic spline: its second derivative is 0 at both ends.
 #[derive(Debug, Clone, PartialEq)]

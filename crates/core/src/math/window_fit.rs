@@ -1,4 +1,5 @@
-//! The least-squares polynomial of one window and what it leaves of every sample.
+//! The least-squares polynomial of one window and what it leaves of every sample. By hand: one fit for each sample over
+//! fixed rows, in the order of sums that saved results have.
 
 /// Values handled at a time, so that the compiler may use vector instructions.
 const LANES: usize = 4;

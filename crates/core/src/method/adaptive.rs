@@ -1,7 +1,8 @@
 //! Five-point prediction with an adaptive limit: section 4 of `docs/methods.md`, \[001\] eqs. (27)-(34).
 
 use super::predictor::{self, Answer, Batch, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
-use super::{About, Judged, Method, Own, Segment, reaches, shared};
+use super::window::LineUpTo;
+use super::{About, Filter, Judged, Method, Own, Segment, reaches, shared};
 use crate::math::huber::{HuberScale, Update};
 use crate::math::line_of_five::LineOfFive;
 use crate::param::{Kind, Paper, Param, Settings, Step, Value, always};
@@ -88,6 +89,10 @@ impl Method for Adaptive {
         let rules = Rules::of(settings);
         let model = |_| AdaptiveLine::new(segment.sigma, segment.floor, settings, &rules);
         predictor::judge_both_ways(model, segment, rules.max_run, rules.look_back, stop)
+    }
+
+    fn filter(&self, _: &Settings) -> Option<&'static dyn Filter> {
+        Some(&LineUpTo { points: Some(5), least: 5, deviation: false })
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

@@ -1,11 +1,12 @@
 //! Alpha-beta-gamma filter: section 4 of `docs/methods.md`, \[001\] eqs. (23)-(26).
 
 use super::predictor::{self, Answer, Batch, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
-use super::{About, Judged, Method, Own, Segment, Way, reaches, shared};
+use super::{About, Filter, Judged, Method, Own, Segment, Way, reaches, shared};
 use crate::math::gains::{self, Gains};
 use crate::param::{Kind, Param, Settings, Step, Value, always};
 use crate::stop::{Stop, Stopped};
 
+mod filtered;
 mod spread;
 
 use spread::Spread;
@@ -67,6 +68,10 @@ impl Method for AlphaBetaGamma {
             tracker
         };
         predictor::judge_both_ways(model, segment, rules.max_run, rules.look_back, stop)
+    }
+
+    fn filter(&self, _: &Settings) -> Option<&'static dyn Filter> {
+        Some(&filtered::State)
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! Chauvenet's criterion: a tolerance that grows with the number of samples.
 
 use super::trend::{self, AtOnce, Criterion, normal_at};
-use super::{About, Judged, Method, Own, Segment, shared};
+use super::{About, Filter, Judged, Method, Own, Segment, shared};
 use crate::param::{Param, Settings};
 use crate::stop::{Stop, Stopped};
 
@@ -37,6 +37,10 @@ impl Method for Chauvenet {
 
     fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
         trend::judge(&criterion(settings), segment, settings, stop)
+    }
+
+    fn filter(&self, settings: &Settings) -> Option<&'static dyn Filter> {
+        trend::filter(settings)
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

@@ -3,8 +3,9 @@
 
 use rayon::prelude::*;
 
+use super::filtered::Expected;
 use super::window::{self, Edge, Windows};
-use super::{About, Judged, Method, Own, Segment, Verdict, exceeds, reaches, shared};
+use super::{About, Filter, Judged, Method, Own, Segment, Verdict, exceeds, reaches, shared};
 use crate::math::order::{MAD_TO_SIGMA, median_of_many};
 use crate::math::pieces::{self, PIECE};
 use crate::param::{Kind, Paper, Param, Settings, Value, always};
@@ -92,6 +93,10 @@ impl Method for DiffMedian {
             if switching { scale.max(segment.sigma) } else { scale }
         };
         judge(segment, &smoother, k, scale, settings.whole(shared::MAX_PASSES.key))
+    }
+
+    fn filter(&self, _: &Settings) -> Option<&'static dyn Filter> {
+        Some(&Expected("sum of the differences after their medians were put in"))
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::predictor::{self, Answer, Batch, Model, Prediction, RateLimit, Rules, passed_over_by_fourth};
 use super::verdict::TIE;
-use super::{About, Judged, Method, Own, Segment, reaches, shared};
+use super::window::LineUpTo;
+use super::{About, Filter, Judged, Method, Own, Segment, reaches, shared};
 use crate::math::line_of_five::{AHEAD, LANES, LineOfFive};
 use crate::param::{Param, Settings, Value};
 use crate::stop::{Stop, Stopped};
@@ -49,6 +50,10 @@ impl Method for FivePoint {
         let rules = Rules::of(settings);
         let model = |_| Line::new(segment.sigma, &rules);
         predictor::judge_both_ways(model, segment, rules.max_run, rules.look_back, stop)
+    }
+
+    fn filter(&self, _: &Settings) -> Option<&'static dyn Filter> {
+        Some(&LineUpTo { points: Some(5), least: 5, deviation: true })
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! The generalised extreme studentised deviate test (Rosner 1983): Grubbs' test that many outliers do not mask.
 
 use super::trend::{self, Chance, Criterion, Critical, Limit, Pass, Removals, Survivors};
-use super::{About, Judged, Method, Own, Segment, exceeds, shared};
+use super::{About, Filter, Judged, Method, Own, Segment, exceeds, shared};
 use crate::math::least_spread::least_squares_of_any;
 use crate::math::moments::Moments;
 use crate::param::{Kind, Param, Settings, Step, Value, always};
@@ -54,6 +54,10 @@ impl Method for Gesd {
 
     fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
         trend::judge(&criterion(settings), segment, settings, stop)
+    }
+
+    fn filter(&self, settings: &Settings) -> Option<&'static dyn Filter> {
+        trend::filter(settings)
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! Grubbs' test of the most deviant sample, one at a time.
 
 use super::trend::{self, Chance, Criterion, Critical, OneAtATime};
-use super::{About, Judged, Method, Own, Segment, shared};
+use super::{About, Filter, Judged, Method, Own, Segment, shared};
 use crate::param::{Kind, Paper, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
@@ -53,6 +53,10 @@ impl Method for Grubbs {
 
     fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
         trend::judge(&criterion(settings), segment, settings, stop)
+    }
+
+    fn filter(&self, settings: &Settings) -> Option<&'static dyn Filter> {
+        trend::filter(settings)
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! The Hampel identifier: a sliding median without feedback, judged by the window's median absolute deviation.
 
 use super::window::{self, Center, Rule};
-use super::{About, Judged, Method, Own, Segment, shared};
+use super::{About, Filter, Judged, Method, Own, Segment, shared};
 use crate::param::{Param, Settings};
 use crate::stop::{Stop, Stopped};
 
@@ -46,6 +46,10 @@ impl Method for Hampel {
 
     fn gate(&self, settings: &Settings) -> Option<&'static str> {
         window::gate(settings)
+    }
+
+    fn filter(&self, _: &Settings) -> Option<&'static dyn Filter> {
+        Some(&window::Smooth(Center::Median))
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

@@ -8,6 +8,7 @@ use crate::stop::{Stop, Stopped};
 
 mod fill;
 mod filter;
+mod filtered;
 mod joint;
 mod passes;
 mod single;
@@ -197,6 +198,10 @@ impl Method for Kalman {
             }
         }
         Ok(values)
+    }
+
+    fn filter(&self, _: &Settings) -> Option<&'static dyn super::Filter> {
+        Some(&filtered::State)
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! The sliding mean: each sample against the mean of the window around it.
 
 use super::window::{self, Center, Rule};
-use super::{About, Judged, Method, Own, Segment, shared};
+use super::{About, Filter, Judged, Method, Own, Segment, shared};
 use crate::param::{Param, Settings};
 use crate::stop::{Stop, Stopped};
 
@@ -44,6 +44,10 @@ impl Method for MeanWindow {
 
     fn gate(&self, settings: &Settings) -> Option<&'static str> {
         window::gate(settings)
+    }
+
+    fn filter(&self, _: &Settings) -> Option<&'static dyn Filter> {
+        Some(&window::Smooth(Center::Mean))
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

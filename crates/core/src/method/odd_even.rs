@@ -1,7 +1,7 @@
 //! Odd-even extraction: Wright's criterion within groups of samples that are not neighbours.
 
 use super::trend::{self, AtOnce, Criterion};
-use super::{About, Damaged, Judged, Method, Own, Segment, shared};
+use super::{About, Damaged, Filter, Judged, Method, Own, Segment, shared};
 use crate::math::pieces;
 use crate::param::{Kind, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
@@ -52,6 +52,10 @@ impl Method for OddEven {
 
     fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
         trend::judge(&criterion(settings), segment, settings, stop)
+    }
+
+    fn filter(&self, settings: &Settings) -> Option<&'static dyn Filter> {
+        trend::filter(settings)
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! The sliding polynomial: every sample of a window against a least-squares polynomial over it.
 
 use super::window::{self, PolyRule};
-use super::{About, Judged, Method, Own, Segment, shared};
+use super::{About, Filter, Judged, Method, Own, Segment, shared};
 use crate::math::polyfit::Polynomial;
 use crate::param::{Kind, Paper, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
@@ -65,6 +65,10 @@ impl Method for PolyWindow {
             k: settings.real(shared::K.key),
         };
         window::judge_polynomials(&rule, segment, stop)
+    }
+
+    fn filter(&self, _: &Settings) -> Option<&'static dyn Filter> {
+        Some(&window::Middle)
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

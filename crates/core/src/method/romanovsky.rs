@@ -1,7 +1,7 @@
 //! Romanovsky's criterion: Student's t for the most deviant sample, one at a time.
 
 use super::trend::{self, Chance, Criterion, Critical, OneAtATime};
-use super::{About, Judged, Method, Own, Segment, shared};
+use super::{About, Filter, Judged, Method, Own, Segment, shared};
 use crate::param::{Param, Settings};
 use crate::stop::{Stop, Stopped};
 
@@ -38,6 +38,10 @@ impl Method for Romanovsky {
 
     fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
         trend::judge(&criterion(settings), segment, settings, stop)
+    }
+
+    fn filter(&self, settings: &Settings) -> Option<&'static dyn Filter> {
+        trend::filter(settings)
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! Template convolution: each sample against the end of the straight line through the samples up to it.
 
-use super::window::{self, Limits, Spread};
-use super::{About, Judged, Method, Own, Segment, Verdict, reaches, shared};
+use super::window::{self, Limits, LineUpTo, Spread};
+use super::{About, Filter, Judged, Method, Own, Segment, Verdict, reaches, shared};
 use crate::math::line::LineSums;
 use crate::math::moments::Moments;
 use crate::math::pieces;
@@ -72,6 +72,10 @@ impl Method for Template {
 
     fn gate(&self, settings: &Settings) -> Option<&'static str> {
         window::gate(settings)
+    }
+
+    fn filter(&self, _: &Settings) -> Option<&'static dyn Filter> {
+        Some(&LineUpTo { points: None, least: 3, deviation: false })
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

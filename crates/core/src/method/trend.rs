@@ -14,10 +14,12 @@ use crate::param::Settings;
 use crate::stop::{Stop, Stopped};
 
 mod at_once;
+mod filtered;
 mod one_at_a_time;
 mod warning;
 
 pub(super) use at_once::{AtOnce, normal_at};
+pub(super) use filtered::filter;
 pub(super) use one_at_a_time::{Chance, Critical, OneAtATime, Removals};
 pub(super) use warning::of_settings as warnings;
 

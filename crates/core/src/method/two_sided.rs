@@ -2,13 +2,14 @@
 
 use rayon::prelude::*;
 
-use super::{About, Damaged, Direction, Directions, Judged, Method, Own, Segment, TIE, Verdict, Way, shared};
+use super::{About, Damaged, Direction, Directions, Filter, Judged, Method, Own, Segment, TIE, Verdict, Way, shared};
 use crate::math::pieces::{self, PIECE};
 use crate::param::{Choice, Kind, Paper, Param, Settings, Value, always};
 use crate::stop::{Stop, Stopped};
 
 mod candidates;
 mod direction;
+mod filtered;
 mod repair;
 
 use candidates::NO_CANDIDATE;
@@ -260,6 +261,10 @@ impl Method for TwoSided {
             lines.push("repair_rule = matched needs both directions: everything is removed".into());
         }
         lines
+    }
+
+    fn filter(&self, _: &Settings) -> Option<&'static dyn Filter> {
+        Some(&filtered::BothSides)
     }
 }
 

@@ -10,6 +10,7 @@ use crate::stop::{Stop, Stopped};
 
 mod baseline;
 mod figures;
+mod filtered;
 mod geometry;
 mod polynomial;
 mod residuals;
@@ -18,6 +19,7 @@ mod statistics;
 mod warning;
 
 use figures::{Figures, figures};
+pub(super) use filtered::{LineUpTo, Middle, Smooth};
 pub(super) use geometry::{Edge, Windows, level};
 pub(super) use polynomial::{PolyRule, judge as judge_polynomials};
 pub(super) use sorted::medians;

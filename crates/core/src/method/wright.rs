@@ -1,7 +1,7 @@
 //! Wright's (PauTa) criterion: three standard deviations from the mean.
 
 use super::trend::{self, AtOnce, Criterion};
-use super::{About, Judged, Method, Own, Segment, shared};
+use super::{About, Filter, Judged, Method, Own, Segment, shared};
 use crate::param::{Param, Settings, Value};
 use crate::stop::{Stop, Stopped};
 
@@ -38,6 +38,10 @@ impl Method for Wright {
 
     fn judge(&self, segment: &Segment<'_>, settings: &Settings, stop: &Stop) -> Result<Judged, Stopped> {
         trend::judge(&criterion(settings), segment, settings, stop)
+    }
+
+    fn filter(&self, settings: &Settings) -> Option<&'static dyn Filter> {
+        trend::filter(settings)
     }
 
     fn warnings(&self, settings: &Settings) -> Vec<String> {

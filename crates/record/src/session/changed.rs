@@ -17,11 +17,16 @@ pub const CHANGED_COLUMNS: [Column; 7] = [
     CHANNEL,
     column("old", "text of the cell in the record"),
     column("new", "text of the cell in the cleaned file; empty when the value was removed"),
-    column("verdict", "`outlier` or `missing`"),
-    column("by", "id of the method or the check that flagged it, `analyst`, or `fill_gaps`"),
+    column("verdict", "verdict in effect: `outlier` or `missing`, where filtered values are written any of them"),
+    column(
+        "by",
+        "id of the method or the check that flagged it, `analyst`, `fill_gaps`, or `filtered` for the value of the model",
+    ),
 ];
 /// Who fills what is missing: the setting of the repair.
 const FILLED_BY: &str = FILL_GAPS.key;
+/// Who writes the values of the model.
+const FILTERED: &str = "filtered";
 /// Who decides.
 const ANALYST: &str = "analyst";
 
@@ -103,7 +108,8 @@ fn added(track: &Track, texts: &Cells<'_>, new: &NewRow, writer: &mut csv::Write
 /// Why each cell changes.
 fn reasons<'a>(track: &Track, session: &'a Session, analysed: &'a Analysed) -> BTreeMap<At, Reason<'a>> {
     let mut reasons = BTreeMap::new();
-    for (plan, (index, samples, outcome)) in session.plans.iter().zip(&analysed.channels) {
+    for (at, (plan, (index, samples, outcome))) in session.plans.iter().zip(&analysed.channels).enumerate() {
+        let filtered = analysed.filtered_of(at).map_or(&[][..], |filtered| &filtered.value);
         let channel = &track.channels[*index];
         let series = samples.series(channel, &track.time);
         for &position in &outcome.outliers {
@@ -112,6 +118,10 @@ fn reasons<'a>(track: &Track, session: &'a Session, analysed: &'a Analysed) -> B
             let by = if decided { ANALYST } else { outcome.detection.by(position) };
             let reason = Reason { channel: &plan.channel, verdict: Verdict::Outlier, by };
             reasons.insert(At { row, column: channel.column }, reason);
+        }
+        for (position, _) in filtered.iter().enumerate().filter(|(_, value)| value.is_finite()) {
+            let reason = Reason { channel: &plan.channel, verdict: outcome.verdict(position), by: FILTERED };
+            reasons.entry(At { row: series.row(position), column: channel.column }).or_insert(reason);
         }
         for fill in &outcome.fills {
             if let Place::Cell(row) = fill.place {

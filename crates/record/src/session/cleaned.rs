@@ -7,14 +7,17 @@ use sha2::{Digest, Sha256};
 
 use super::{Outcome, Place};
 use crate::error::Result;
+use crate::method::Filtered;
 use crate::track::{CellChange, Changes, NewRow, Samples, Track, hex, rewrite};
 
-/// What the outcomes change in the file. Each outcome belongs to the channel of that index in the track.
+/// What the outcomes change in the file. Each outcome belongs to the channel of that index in the track; `filtered` are the
+/// values that the file has in place of the measured ones, for each outcome.
 #[must_use]
-pub fn changes(track: &Track, outcomes: &[(usize, &Samples, &Outcome)]) -> Changes {
+pub fn changes(track: &Track, outcomes: &[(usize, &Samples, &Outcome)], filtered: &[Option<&Filtered>]) -> Changes {
     let mut cells = Vec::new();
     let mut rows: BTreeMap<Place, NewRow> = BTreeMap::new();
-    for &(channel, samples, outcome) in outcomes {
+    let filtered = filtered.iter().copied().chain(std::iter::repeat(None));
+    for (&(channel, samples, outcome), filtered) in outcomes.iter().zip(filtered) {
         let channel = &track.channels[channel];
         let series = samples.series(channel, &track.time);
         let column = channel.column;
@@ -23,7 +26,13 @@ pub fn changes(track: &Track, outcomes: &[(usize, &Samples, &Outcome)]) -> Chang
             cells.push(CellChange { row: row as u32, column, value });
         };
         for (&position, &fix) in outcome.outliers.iter().zip(&outcome.fixes) {
-            change(series.row(position), fix.is_finite().then_some(fix));
+            let filtered = filtered.and_then(|f| f.value.get(position).copied()).filter(|value| value.is_finite());
+            change(series.row(position), filtered.or(fix.is_finite().then_some(fix)));
+        }
+        for (position, &value) in filtered.map_or(&[][..], |f| &f.value).iter().enumerate() {
+            if value.is_finite() && outcome.outliers.binary_search(&position).is_err() {
+                change(series.row(position), Some(value));
+            }
         }
         for fill in &outcome.fills {
             match fill.place {

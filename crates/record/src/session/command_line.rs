@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::{DEFAULT_METHOD, Plan, Preparation, Preset, Session, Setup, suggested};
+use super::{DEFAULT_METHOD, OutputValue, Plan, Preparation, Preset, Session, Setup, suggested};
 use crate::param::Settings;
 use crate::repair;
 use crate::track::{LoadOptions, Pattern, Rules, Source, Track, Worded, is_shown};
@@ -28,6 +28,9 @@ pub fn clean_command(session: &Session, track: &Track, output: &Path) -> Option<
     }
     let preset = judging(&mut line, &first.setup);
     preparing(&mut line, session, track, preset)?;
+    if let Some(word) = session.value.word().filter(|_| session.value != OutputValue::default()) {
+        option(&mut line, "output-value", word);
+    }
     let _ = write!(line, " -o {}", path_quoted(output));
     Some(line)
 }

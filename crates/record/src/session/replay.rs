@@ -6,12 +6,14 @@ use std::sync::Arc;
 
 use super::document::{Read, WrittenDecision, read_with_texts};
 use super::flags::flags_sha256;
+use super::output_value::filtered_of;
 use super::save::known;
 use super::{
-    Data, Detection, Member, Outcome, Plan, Recorded, Session, Setup, changes, clean_sha256, detect_taught,
-    detect_together, settle,
+    Data, Detection, Member, Outcome, Plan, Recorded, Session, Setup, changes, check_value, clean_sha256,
+    detect_taught, detect_together, settle,
 };
 use crate::error::{Error, Result};
+use crate::method::Filtered;
 use crate::stop::Stop;
 use crate::track::{
     Extent, LoadOptions, RowChecks, Samples, Source, Standing, Track, Wanted, covered, for_each_row, load_extent,
@@ -331,14 +333,17 @@ fn file_of(source: &Source) -> PathBuf {
 pub struct Analysed {
     /// For each plan: index of its channel in the track, its samples, its outcome.
     pub channels: Vec<(usize, Samples, Outcome)>,
+    /// For each plan the filtered values, where the session has them written; empty otherwise.
+    pub filtered: Vec<Option<Filtered>>,
 }
 
 impl Analysed {
     /// Runs every plan of `session`.
     ///
     /// # Errors
-    /// What [`detect_taught`] and [`settle`] give; [`Error::Usage`] for a channel that the record does not have.
+    /// [`check_value`]; what [`detect_taught`] and [`settle`] give; [`Error::Usage`] for a channel that the record does not have.
     pub fn of(session: &Session, track: &Track, stop: &Stop) -> Result<Self> {
+        check_value(session)?;
         use rayon::prelude::*;
         let prepare = |plan: &Plan| {
             let index = track.channels.iter().position(|c| c.name == plan.channel).ok_or_else(|| {
@@ -362,15 +367,23 @@ impl Analysed {
             let outcome = settle(track, channel, &samples, Arc::new(detection), &plan.decisions, stop)?;
             Ok((index, samples, outcome))
         };
-        let channels = todo.map(one).collect::<Result<_>>()?;
-        Ok(Self { channels })
+        let channels: Vec<(usize, Samples, Outcome)> = todo.map(one).collect::<Result<_>>()?;
+        let filtered = filtered_of(session, track, &channels, stop)?;
+        Ok(Self { channels, filtered })
     }
 
     /// What changes in the file.
     #[must_use]
     pub fn changes(&self, track: &Track) -> crate::track::Changes {
         let all: Vec<_> = self.channels.iter().map(|(i, s, o)| (*i, s, o)).collect();
-        changes(track, &all)
+        let filtered: Vec<_> = (0..all.len()).map(|plan| self.filtered_of(plan)).collect();
+        changes(track, &all, &filtered)
+    }
+
+    /// The filtered values that the cleaned file has of a plan's channel; none where it has the measured ones.
+    #[must_use]
+    pub fn filtered_of(&self, plan: usize) -> Option<&Filtered> {
+        self.filtered.get(plan).and_then(Option::as_ref)
     }
 
     /// Outliers of all channels.

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use super::{Analysed, Outcome, Place, Session};
 use crate::error::{Error, Result};
-use crate::method::Verdict;
+use crate::method::{Filtered, Verdict};
 use crate::track::{Cells, Channel, Series, Track, escape_formula, for_each_row};
 
 /// A column of a table: its name in the first line, and what its cells say.
@@ -44,6 +44,8 @@ pub struct Walk<'a> {
     pub outcome: &'a Outcome,
     /// Index of its plan.
     pub plan: usize,
+    /// The values that the cleaned file has in place of the measured ones, if it has others.
+    filtered: Option<&'a Filtered>,
     track: &'a Track,
     channel: &'a Channel,
     next: usize,
@@ -79,9 +81,16 @@ impl Walk<'_> {
     /// The value that the cleaned file has for an outcome's sample; none where the cell is empty.
     #[must_use]
     pub fn clean(&self, position: usize) -> Option<f64> {
-        let fix = self.outcome.fix(position);
+        let filtered = self.filtered.and_then(|f| f.value.get(position).copied()).filter(|value| value.is_finite());
+        let fix = filtered.or_else(|| self.outcome.fix(position));
         let rounded = |v: f64| v.is_finite().then(|| self.track.rounded(self.channel, v));
         fix.map_or(Some(self.series.y[position]), rounded)
+    }
+
+    /// A value as the cleaned file would have it.
+    #[must_use]
+    pub fn rounded(&self, value: f64) -> f64 {
+        self.track.rounded(self.channel, value)
     }
 
     /// The value that fills the missing sample of `row`, if any.
@@ -121,6 +130,7 @@ pub fn walk(
             name: &session.plans[plan].channel,
             outcome,
             plan,
+            filtered: analysed.filtered_of(plan),
             track,
             channel,
             next: 0,

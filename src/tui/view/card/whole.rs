@@ -8,6 +8,7 @@ use ratatui::widgets::Widget;
 
 use super::super::super::action::Action;
 use super::super::super::model::Model;
+use super::super::super::smoothing::Smoothed;
 use super::super::super::update::mark_at;
 use super::super::compare::votes_words;
 use super::super::parameters::wrapped;
@@ -70,6 +71,7 @@ fn facts(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> V
             text.push_str(&format!(" (repair {})", repair.id));
         }
         facts.push(("will be", text, theme.text));
+        smoothed(model, i, &mut facts);
     }
     let decided = match (mark.and_then(|m| m.ruling), why(model)) {
         (Some(ruling), Some(why)) => format!("{}, {why}", ruling.verdict().word()),
@@ -94,6 +96,25 @@ fn facts(model: &Model, series: &Series<'_>, i: usize, mark: Option<&Mark>) -> V
         facts.push(("elsewhere", elsewhere, theme.text));
     }
     facts
+}
+
+/// What smoothing the result has shown: of the sample where the filtered track is on, and of the whole channel.
+fn smoothed(model: &Model, i: usize, facts: &mut Vec<Fact>) {
+    let Some(smoothed) = Smoothed::of(model) else { return };
+    if let Some(track) = &smoothed.track {
+        let at = |values: &[f64]| values.get(i).copied().filter(|v| v.is_finite()).map(short);
+        let text = match (at(&track.values.value), at(&track.values.deviation)) {
+            (Some(value), Some(deviation)) => format!("{value}, standard deviation {deviation}"),
+            (Some(value), None) => value,
+            (None, _) => "none".into(),
+        };
+        facts.push(("filtered", text, model.theme.text));
+    }
+    if let Some(residual) = smoothed.residual {
+        let text =
+            format!("{} before the repair, {} after (whole channel)", short(residual.before), short(residual.after));
+        facts.push(("residual", text, model.theme.text));
+    }
 }
 
 /// What the method says, and with what.

@@ -1,4 +1,5 @@
-//! The covariance that the gains of the tracker imply, in units of the squared noise scale.
+//! The covariance that the gains of the tracker imply, in units of the squared noise scale. By hand as in the Kalman filter,
+//! for the same reason: nalgebra gives other bits, and no speed.
 
 /// Covariance of position, velocity and acceleration.
 #[derive(Debug, Clone, Default)]

@@ -72,6 +72,7 @@ struct Document {
     format: i64,
     #[serde(rename = "program", default)]
     _program: String,
+    output_value: Option<Spanned<String>>,
     data: WrittenData,
     #[serde(default)]
     channel: Vec<Spanned<WrittenChannel>>,
@@ -281,13 +282,14 @@ fn parse_with_texts(path: &Path, text: &str) -> Result<Read> {
         None => Some(vec!["the digest was removed since the session was saved".to_owned()]),
         Some(written) => Some(Digest::of_table(loose).differences(&written)),
     };
+    let value = reader.told("output_value", document.output_value)?.unwrap_or_default();
     let data = reader.data(document.data)?;
     let result = document.result.map(|r| Recorded {
         flagged: r.flagged,
         clean_sha256: r.clean_sha256,
         flags_sha256: r.flags_sha256,
     });
-    Ok(Read { session: Session { data, plans, result }, texts, rows_line, altered })
+    Ok(Read { session: Session { data, plans, value, result }, texts, rows_line, altered })
 }
 
 struct Reader<'a> {

@@ -7,7 +7,7 @@ use super::FORMAT;
 use crate::error::{Error, Result};
 use crate::param::{Param, Settings, Value};
 use crate::session::signature::at_text;
-use crate::session::{Data, Digest, Plan, Preparation, Session, folder_of};
+use crate::session::{Data, Digest, OutputValue, Plan, Preparation, Session, folder_of};
 use crate::track::{Pattern, Rules, Source, Worded, is_hidden};
 
 /// The session file, with its digest, for a session that lies at `path`. `texts` gives, for each plan, the texts of time and value of
@@ -24,6 +24,9 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
     };
     line(format!("format = {FORMAT}"));
     line(format!("program = {}", quoted(concat!("wildpoint ", env!("CARGO_PKG_VERSION")))));
+    if let Some(word) = session.value.word().filter(|_| session.value != OutputValue::default()) {
+        line(format!("output_value = {}", quoted(word)));
+    }
     line("\n[data]".into());
     line(format!("file = {}", quoted(&record)));
     line(format!("sha256 = {}", quoted(&session.data.sha256)));

@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::method::{METHODS, Verdict};
 use crate::review::{History, Ruling, Signature};
-use crate::session::{Data, Preset};
+use crate::session::{Data, OutputValue, Preset};
 use crate::track::{LoadOptions, Source};
 
 const ROWS: usize = 50;
@@ -21,7 +21,7 @@ fn session() -> Session {
         row_check: None,
         options: LoadOptions::default(),
     };
-    Session { data, plans: ["v", "alt \"m\"\n", "高度"].map(plan).into(), result: None }
+    Session { data, plans: ["v", "alt \"m\"\n", "高度"].map(plan).into(), value: OutputValue::Clean, result: None }
 }
 
 fn header(begun: usize) -> Header {

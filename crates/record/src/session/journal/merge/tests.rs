@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::review::{Decisions, Ruling, Signature};
-use crate::session::Data;
+use crate::session::{Data, OutputValue};
 use crate::track::{LoadOptions, Source};
 
 const ROWS: u32 = 6;
@@ -19,7 +19,7 @@ fn session() -> Session {
         row_check: None,
         options: LoadOptions::default(),
     };
-    Session { data, plans: ["v", "w"].map(plan).into(), result: None }
+    Session { data, plans: ["v", "w"].map(plan).into(), value: OutputValue::Clean, result: None }
 }
 
 fn decision(outlier: bool, note: &str) -> Option<Decision> {
