@@ -51,6 +51,7 @@ pub enum Action {
     AdoptPinned,
     Consensus,
     NextAgreed,
+    AdoptConsensus,
     Detectability,
     NextChannel,
     Channels,
@@ -140,6 +141,7 @@ impl Action {
                 | A::ByHand
                 | A::AcceptView
                 | A::AdoptPinned
+                | A::AdoptConsensus
                 | A::RejectView
                 | A::ClearView
                 | A::Epoch
