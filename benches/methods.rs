@@ -1,7 +1,7 @@
 //! Cost of every method at its defaults, of the jobs that have a budget, and of the sliding ones at other windows: one
 //! channel, one segment, a parabola with unit noise and 1 % outliers. `cargo bench --bench methods -- hampel` measures
 //! one, `-- budget` those with a budget. The record has been loaded and calibrated, as for every result but the first;
-//! `-- calibration` measures that.
+//! `-- calibration` measures that, and `-- advice` the advice on a record.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -9,9 +9,11 @@ use std::time::Duration;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use wildpoint::calibration::{Calibration, calibrate};
-use wildpoint::method::{METHODS, Method, Rate, judge_segments, noise, segments};
+use wildpoint::method::{METHODS, Method, Rate, judge_segments, noise, segments, voting};
 use wildpoint::param::{Settings, Value};
 use wildpoint::repair::{self, Damage};
+use wildpoint::session::detectability::Study;
+use wildpoint::session::{Preset, Setup};
 use wildpoint::stop::Stop;
 use wildpoint::track::Series;
 
@@ -54,6 +56,29 @@ fn calibrations(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("of a channel", n), |b| {
             b.iter(|| calibrate(black_box(&series), &Stop::never()).map_or(0, |c| c.limits.len()));
         });
+    }
+    group.finish();
+}
+
+/// The advice of `wildpoint advise` on all methods that need no rate: until there is a first one, and complete.
+fn advice(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("advice");
+    for n in [100_000, 10_000_000] {
+        let record = Record::new(n, 1);
+        let series = Series::new(&record.t, &record.y);
+        let measure = |rounds: usize| {
+            let own = voting().filter(|m| !m.about().needs_rate);
+            let setups = own.map(|method| Setup::new(method, Preset::Default)).collect();
+            let stop = Stop::never();
+            let mut study = Study::new((&series).into(), setups, 1, &stop).unwrap_or_else(|e| panic!("{e}"));
+            let mut goes_on = true;
+            while goes_on && study.rounds().done < rounds {
+                goes_on = study.advance(&stop).unwrap_or_else(|e| panic!("{e}"));
+            }
+            study.advice().recommended
+        };
+        group.bench_function(BenchmarkId::new("first", n), |b| b.iter(|| black_box(measure(1))));
+        group.bench_function(BenchmarkId::new("complete", n), |b| b.iter(|| black_box(measure(usize::MAX))));
     }
     group.finish();
 }
@@ -172,6 +197,6 @@ criterion_group! {
         .sample_size(10)
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_secs(1));
-    targets = calibrations, defaults, budgets, windows, long
+    targets = calibrations, advice, defaults, budgets, windows, long
 }
 criterion_main!(benches);

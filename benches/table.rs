@@ -55,6 +55,9 @@ const JOBS: &[Job] = &[
     job("`matched`, window 31", "budget/matched, window 31/1000000", 250.0),
     job("infill by polynomials", "budget/infill, polynomial/1000000", 12.0),
     job("infill by splines", "budget/infill, spline/1000000", 12.0),
+    job("the first advice on all methods, 1e5", "advice/first/100000", 2000.0),
+    job("the complete advice, 1e5", "advice/complete/100000", 8000.0),
+    job("the complete advice, 1e7 (16 pieces)", "advice/complete/10000000", 20_000.0),
 ];
 
 /// What the first frame on 1e7 rows may hold in memory at most, in MB.

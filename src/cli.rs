@@ -10,6 +10,7 @@ use crate::repair;
 use crate::session::{DEFAULT_METHOD, OutputValue, Preset, Setup, method_of_id};
 
 mod advise;
+mod candidates;
 mod experiments;
 mod load;
 mod outputs;
@@ -19,6 +20,7 @@ mod screen;
 mod tools;
 
 pub use advise::AdviseArgs;
+pub use candidates::CandidateArgs;
 pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
 use load::worded;
 pub use load::{DateOrder, Load};

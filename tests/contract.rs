@@ -8,7 +8,7 @@
 
 use wildpoint::experiment::Random;
 use wildpoint::method::{Direction, Gated, Judged, METHODS, Method, Rate, Verdict, judge_channel};
-use wildpoint::param::{Kind, Numbers, Settings, Value};
+use wildpoint::param::{Kind, Numbers, Settings, Value, Words};
 use wildpoint::repair;
 use wildpoint::stop::Stop;
 use wildpoint::track::Series;
@@ -309,6 +309,7 @@ fn every_legal_end_of_every_range_is_survived() {
                 Kind::Choice(words) => words.iter().map(|w| Value::Word(w)).collect(),
                 Kind::Switch => vec![Value::Switch(false), Value::Switch(true)],
                 Kind::Numbers => vec![Value::Numbers(Numbers::NONE)],
+                Kind::Words(list) => vec![Value::Words(Words::all(list))],
                 Kind::RealOr { words, min, max } => {
                     let words = words.iter().map(|w| Value::Word(w));
                     words.chain([Value::Real(min), Value::Real(max)]).collect()

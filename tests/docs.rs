@@ -11,7 +11,7 @@ mod snippets;
 use std::path::{Path, PathBuf};
 
 use wildpoint::manual::PAGES;
-use wildpoint::method::METHODS;
+use wildpoint::method::{METHODS, voting};
 use wildpoint::repair;
 
 fn root() -> &'static Path {
@@ -89,7 +89,8 @@ fn the_readme_is_short_and_counts_right() {
     let text = read(&root().join("README.md"));
     let lines = text.lines().count();
     assert!(lines <= 110, "{lines} lines");
-    assert!(text.contains(&format!("All {} methods", METHODS.len())));
+    // The consensus is of the others.
+    assert!(text.contains(&format!("All {} methods", voting().count())));
 }
 
 /// The targets of the links of a page, without those into the web.

@@ -17,7 +17,7 @@ use fuzzing::methods::{judged, made_of};
 use proptest::prelude::*;
 use wildpoint::experiment::Random;
 use wildpoint::method::{METHODS, Method};
-use wildpoint::param::{Kind, Numbers, Settings, Value};
+use wildpoint::param::{Kind, Numbers, Settings, Value, Words};
 use wildpoint::repair::{PARAMS, REPAIRS};
 use wildpoint::session::{Preset, Session, Setup};
 use wildpoint::track::{LoadOptions, Track};
@@ -105,6 +105,7 @@ fn ends(kind: Kind) -> Vec<Value> {
         }
         Kind::WholeOrOff { min, max } => vec![Value::Whole(min), Value::Whole(max), Value::Word("off")],
         Kind::Numbers => vec![Value::Numbers(Numbers::NONE)],
+        Kind::Words(list) => vec![Value::Words(Words::all(list))],
     }
 }
 

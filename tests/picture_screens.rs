@@ -201,7 +201,7 @@ fn all_methods_are_asked_once_and_again_when_the_question_changes() {
     let mut bench = Bench::on("demo.csv", UNICODE_DARK).keys("C");
     let consensus = bench.0.state().consensus.clone().unwrap();
     // `matched` needs a rate channel and has none.
-    assert_eq!(consensus.ballot.methods(), wildpoint::method::METHODS.len() - 1);
+    assert_eq!(consensus.ballot.methods(), wildpoint::method::voting().count() - 1);
     assert_eq!(consensus.left_out.iter().map(|(id, _)| *id).collect::<Vec<_>>(), ["matched"]);
     assert!(bench.frame().contains("left out: matched"), "{}", bench.frame());
     // Row 61 is 100 m/s off: most methods say so, the one of the session among them.
@@ -220,6 +220,34 @@ fn all_methods_are_asked_once_and_again_when_the_question_changes() {
     let bench = bench.keys("g h");
     let (state, agreed) = (bench.0.state(), &bench.0.state().consensus.as_ref().unwrap().agreed);
     assert!(agreed.contains(&u32::try_from(state.cursor).unwrap()));
+}
+
+#[test]
+fn what_most_methods_flag_is_taken_as_the_detection_in_one_step() {
+    let bench = Bench::on("demo.csv", UNICODE_DARK).keys("C");
+    let agreed = bench.0.state().consensus.as_ref().unwrap().agreed.clone();
+    let before = bench.0.plan().setup.clone();
+    let bench = bench.keys("g v");
+    let setup = &bench.0.plan().setup;
+    assert_eq!((setup.method.about().id, setup.settings.whole("votes")), ("consensus", 9));
+    assert!(bench.frame().contains("9 or more of 18 methods flag"), "{}", bench.frame());
+    let marks = &bench.0.state().drawn.as_ref().unwrap().outcome.marks;
+    let flagged = marks.iter().filter(|m| m.verdict == wildpoint::method::Verdict::Outlier).map(|m| m.position);
+    assert_eq!(flagged.collect::<Vec<_>>(), agreed);
+    assert_eq!(bench.keys("u").0.plan().setup, before);
+}
+
+#[test]
+fn what_was_measured_is_saved_while_it_holds() {
+    let bench = measured(Bench::on("demo.csv", UNICODE_DARK).keys("g m"));
+    let detectability = |bench: &Bench| bench.0.document().plans[0].measured.detectability.is_some();
+    assert!(detectability(&bench));
+    let bench = measured(bench.keys("g m m"));
+    let compared = bench.0.document().plans[0].measured.advice.clone().unwrap();
+    assert_eq!(compared.rows.len(), wildpoint::method::voting().count() - 1);
+    let turned = bench.keys("Esc .");
+    let measured = &turned.0.document().plans[0].measured;
+    assert!(measured.detectability_of(&turned.0.plan().setup).is_none() && measured.advice.is_some());
 }
 
 /// The measurement that is under way is over.

@@ -61,7 +61,7 @@ fn judge(record: &Record, method: &dyn Method, stop: &Stop) -> Result<(), Stoppe
 /// number that falls is a pass that does not look, or one that is no longer made: find out which. What the passes are
 /// is said where it can be counted; criteria go on until nothing is new, and a trend of order 2 is fitted in three. The
 /// blocks of the predictors are much shorter than a piece, so of theirs only the runs are counted.
-const PASSES: [(&str, u64); 19] = [
+const PASSES: [(&str, u64); 20] = [
     // The bound on zero and positions; fit, residuals, moments 2, flags, what is out and 3 lists without it, again and
     // again; trend, mean, tolerances, verdicts, bounds.
     ("wright", 70),
@@ -90,6 +90,8 @@ const PASSES: [(&str, u64); 19] = [
     // Two runs of 32, and in each nothing said; the nearer, verdicts, codes, tolerances, bounds.
     ("two-sided", 71),
     ("kalman", 128),
+    // What all of these but `matched` do, and once for each to count its votes.
+    ("consensus", 1320),
 ];
 
 #[test]

@@ -113,7 +113,7 @@ fn a_comparison_has_every_method_and_writes_what_they_agree_on() {
     record(dir.path(), "a.csv");
     let told = json(dir.path(), "compare a.csv --channel x --json --set hampel.k=9 --set max_gap=off");
     let rows = told["methods"].as_array().expect("methods");
-    assert_eq!(rows.len(), wildpoint::method::METHODS.len() - 1, "all but the one that needs a rate");
+    assert_eq!(rows.len(), wildpoint::method::voting().count() - 1, "all but the one that needs a rate");
     assert_eq!(told["skipped"][0]["method"], "matched");
     let of = |id: &str| rows.iter().find(|r| r["method"] == id).expect("a row");
     let alone = json(dir.path(), "clean a.csv --channel x --method hampel --set k=9 --set max_gap=off --json");
@@ -307,6 +307,33 @@ fn advice_is_measured_on_the_record_and_can_be_taken() {
     assert_eq!(std::fs::read(&file).expect("read"), before, "the record is as it was");
 }
 
+/// An advice without its last column, the times.
+fn without_times(text: &str) -> String {
+    let is_row = |line: &str| line.starts_with("95 %") || line.ends_with(|c: char| c.is_ascii_digit());
+    let cut = |line: &str| {
+        if is_row(line) { line.rsplit_once(' ').map_or("", |cut| cut.0.trim_end()).to_owned() } else { line.to_owned() }
+    };
+    text.lines().map(|line| cut(line) + "\n").collect()
+}
+
+/// `WILDPOINT_UPDATE=1 cargo test --test tools readme` writes the advice of the README again.
+#[test]
+fn the_readme_shows_a_real_advice() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = root.join("README.md");
+    let text = std::fs::read_to_string(&page).expect("the README");
+    let open = "$ wildpoint ";
+    let from = text.find("$ wildpoint advise").expect("an advice");
+    let (line, shown) = text[from + open.len()..].split_once('\n').expect("its output");
+    let shown = &shown[..shown.find("```").expect("its end")];
+    let real = done(root, line);
+    if std::env::var_os("WILDPOINT_UPDATE").is_some() {
+        std::fs::write(&page, text.replacen(shown, &real, 1)).expect("the README can be written");
+    } else {
+        assert_eq!(without_times(shown), without_times(&real), "WILDPOINT_UPDATE=1 cargo test --test tools readme");
+    }
+}
+
 #[test]
 fn a_record_that_cannot_be_asked_is_refused_with_the_reason() {
     let folder = folder();
@@ -326,13 +353,53 @@ fn the_recommended_method_is_cleaned_with_and_recorded_with_its_reasons() {
     assert!(told.contains("method auto: recommended: "), "{told}");
     let session = std::fs::read_to_string(folder.path().join("s.toml")).expect("saved");
     let method = session.lines().find_map(|l| l.strip_prefix("method = ")).expect("a method").trim_matches('"');
-    assert!(session.contains(&format!("# method auto: recommended: {method}; finds 95 %")), "{session}");
+    assert!(session.contains(&format!("\nrecommended = \"{method}\"\n")), "{session}");
+    assert!(session.contains(&format!("  \"recommended: {method}; finds 95 %")), "{session}");
+    assert!(session.contains("[channel.detectability]"), "{session}");
     assert!(session.contains("linear"), "the repair stays: {session}");
     done(folder.path(), "replay s.toml --check");
+    // A report has the same whether it is made with the session or from it.
+    done(folder.path(), "clean a.csv --channel x --method auto --repair linear --report clean.md");
+    done(folder.path(), "replay s.toml --report replay.md");
+    for name in ["clean.md", "replay.md"] {
+        let report = std::fs::read_to_string(folder.path().join(name)).expect("written");
+        let (_, section) = report.split_once("### Methods compared on this record").expect(name);
+        assert!(
+            section.contains(&format!("recommended: {method}; finds")) && section.contains("| wright |"),
+            "{section}"
+        );
+        assert!(report.contains("- detectability: finds 95 % of single points from"), "{report}");
+    }
     let error = fails(folder.path(), "clean a.csv --method auto --suggest", 2);
     assert!(error.contains("both choose"), "{error}");
     let error = fails(folder.path(), "clean a.csv --method auto --set nonsense=1", 2);
     assert!(error.contains("nonsense"), "{error}");
+}
+
+#[test]
+fn the_consensus_is_cleaned_with_like_any_method() {
+    let folder = folder();
+    record(folder.path(), "a.csv");
+    let clean = "clean a.csv --channel x --method consensus --set votes=2 --set methods=hampel,two-sided,wright";
+    let told =
+        json(folder.path(), &format!("{clean} --repair linear -o b.csv --flags b.flags --save-session s.toml --json"));
+    assert_eq!(told["channels"][0]["counts"]["flagged"].as_u64(), Some(WILD.len() as u64), "{told}");
+    let session = std::fs::read_to_string(folder.path().join("s.toml")).expect("saved");
+    assert!(session.contains("votes = 2, methods = [\"wright\", \"hampel\", \"two-sided\"]"), "{session}");
+    done(folder.path(), "replay s.toml --check");
+    // The same as the votes of the same methods, counted.
+    let methods = "--method hampel --method two-sided --method wright";
+    let votes = format!("compare a.csv --channel x {methods} --votes 2 --repair linear -o c.csv --json");
+    let told = json(folder.path(), &votes);
+    assert_eq!(told["consensus"]["flagged"].as_u64(), Some(WILD.len() as u64), "{told}");
+    let read = |name: &str| std::fs::read(folder.path().join(name)).expect("written");
+    assert!(read("b.csv") == read("c.csv"), "cleaned alike");
+    // More votes than methods are said to flag nothing.
+    let told =
+        done(folder.path(), "clean a.csv --channel x --method consensus --set votes=3 --set methods=hampel,wright");
+    assert!(told.contains("votes = 3, but 2 methods vote"), "{told}");
+    let error = fails(folder.path(), "clean a.csv --method consensus --set methods=hampel,matched", 2);
+    assert!(error.contains("methods = hampel,matched") && error.contains("two-sided"), "{error}");
 }
 
 #[test]

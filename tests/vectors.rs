@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use wildpoint::method::{Damaged, METHODS, Method, Rate, Segment, Verdict, judge_channel, noise, segments};
+use wildpoint::method::{Damaged, Method, Rate, Segment, Verdict, judge_channel, noise, segments, voting};
 use wildpoint::param::Settings;
 use wildpoint::stop::Stop;
 use wildpoint::track::Series;
@@ -161,8 +161,8 @@ fn differences(folder: &Path, method: &dyn Method) -> Vec<String> {
 fn every_method_agrees_with_an_independent_implementation() {
     let folder = folder();
     let only = std::env::var("WILDPOINT_METHOD").ok();
-    let wanted = |m: &&&dyn Method| only.as_deref().is_none_or(|id| m.about().id == id);
-    let differences: Vec<String> = METHODS.iter().filter(wanted).flat_map(|m| differences(&folder, *m)).collect();
+    let wanted = |m: &&dyn Method| only.as_deref().is_none_or(|id| m.about().id == id);
+    let differences: Vec<String> = voting().filter(wanted).flat_map(|m| differences(&folder, m)).collect();
     assert!(
         differences.is_empty(),
         "{} differences, the first:\n{}",

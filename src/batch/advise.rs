@@ -11,8 +11,8 @@ use super::table::{columns, row};
 use super::{Ending, one_channel, print, print_json, set_threads};
 use crate::cli::{AUTO, AdviseArgs, Shared};
 use crate::error::{Error, Result};
-use crate::session::detectability::{Advice, Curve, Kind, Measured, SEED, Study, advise, tune};
-use crate::session::{Preset, Session, Setup};
+use crate::session::detectability::{Advice, Detected, Kind, Measured, OnChannel, SEED, Study, two_digits};
+use crate::session::{Measurement, Preset, Session, Setup};
 use crate::stop::Stop;
 use crate::track::{Samples, Track, printable};
 
@@ -31,25 +31,20 @@ struct Told<'a> {
 
 pub(super) fn run(args: &AdviseArgs, out: &mut dyn Write) -> Result<Ending> {
     set_threads(args.threads)?;
-    let named: Vec<String> = args.tune.iter().chain(&args.method).cloned().collect();
-    let asked = Asked {
-        methods: &named,
-        preset: args.preset,
-        rate: args.rate.as_deref(),
-        max_gap: args.max_gap.as_deref(),
-        set: &args.set,
-    };
+    let methods: Vec<String> = args.tune.iter().chain(&args.candidates.method).cloned().collect();
+    let asked = Asked { methods: &methods, ..(&args.candidates).into() };
     let Candidates { setups, left_out } = candidates(&asked)?;
-    let (track, index, note) = one_channel(&args.file, &args.load, args.rate.as_deref())?;
+    let (track, index, note) = one_channel(&args.file, &args.load, asked.rate)?;
     let channel = &track.channels[index];
     let samples = Samples::of(channel, &track.time);
-    let preparation = args.prepare.of(&track, channel, args.preset)?;
+    let preparation = args.candidates.prepare.of(&track, channel, asked.preset)?;
     let setups: Vec<Setup> = setups.into_iter().map(|setup| setup.prepared(&preparation)).collect();
+    let on_channel = OnChannel { track: &track, channel, samples: &samples, seed: args.seed };
     if args.tune.is_some() {
-        return tuned(args, &track, index, &samples, &setups, out);
+        return tuned(args, &on_channel, &setups, out);
     }
     let progress = Progress { shown: !args.json && std::io::stderr().is_terminal() };
-    let advice = advise(&track, channel, &samples, setups, args.seed, &Stop::never(), |study| progress.show(study));
+    let advice = on_channel.advise(setups, &Stop::never(), |study| progress.show(study));
     progress.clear();
     let advice = advice?;
     if args.json {
@@ -71,7 +66,7 @@ pub(super) fn run(args: &AdviseArgs, out: &mut dyn Write) -> Result<Ending> {
         let _ = writeln!(text, "{line}");
     }
     if let Some(best) = advice.best() {
-        let _ = writeln!(text, "to take it: {}", options(&best.setup, args.preset.into()));
+        let _ = writeln!(text, "to take it: {}", options(&best.setup, asked.preset.into()));
     }
     print(out, &text)
 }
@@ -98,10 +93,10 @@ fn table(methods: &[Measured], unit: &str) -> String {
     let mut rows = vec![header];
     for measured in methods {
         let mut cells = vec![measured.setup.method.about().id.to_owned()];
-        cells.extend(measured.kinds.iter().map(size));
+        cells.extend(measured.detected().iter().map(Detected::cell));
         cells.push(format!("{:.1}", 100.0 * measured.recall));
         cells.extend([measured.untouched.flagged, measured.untouched.alone].map(|n| n.to_string()));
-        cells.push(measured.repair_error.map_or_else(|| "-".to_owned(), figure));
+        cells.push(measured.repair_error.map_or_else(|| "-".to_owned(), two_digits));
         cells.push(format!("{:.0}", measured.milliseconds));
         rows.push(cells);
     }
@@ -111,20 +106,6 @@ fn table(methods: &[Measured], unit: &str) -> String {
          than half of the methods\n"
     );
     columns(&rows) + &legend
-}
-
-/// From which size on wild points of a kind are found; of a kind without sizes, the share.
-fn size(curve: &Curve) -> String {
-    if !curve.kind.has_sizes() {
-        return curve.recall.map_or_else(|| "-".to_owned(), |recall| format!("{:.0} %", 100.0 * recall));
-    }
-    curve.smallest.map_or_else(|| "-".to_owned(), figure)
-}
-
-/// Two digits of a number.
-fn figure(value: f64) -> String {
-    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
-    rounded.to_string()
 }
 
 /// The options of `clean` that mean a setup.
@@ -152,20 +133,13 @@ struct ToldTuned<'a> {
 }
 
 /// `advise --tune`.
-fn tuned(
-    args: &AdviseArgs,
-    track: &Track,
-    index: usize,
-    samples: &Samples,
-    setups: &[Setup],
-    out: &mut dyn Write,
-) -> Result<Ending> {
-    let channel = &track.channels[index];
+fn tuned(args: &AdviseArgs, on_channel: &OnChannel<'_>, setups: &[Setup], out: &mut dyn Write) -> Result<Ending> {
+    let channel = on_channel.channel;
     let setup = setups.first().cloned().unwrap_or_else(Setup::standard);
     let end = Instant::now() + Duration::from_secs_f64(args.seconds);
     let is_over = || Instant::now() >= end;
     let allowed = (args.flags, &is_over as &dyn Fn() -> bool);
-    let tuned = match tune(track, channel, samples, &setup, args.seed, allowed, &Stop::never())? {
+    let tuned = match on_channel.tune(&setup, allowed, &Stop::never())? {
         Ok(tuned) => tuned,
         Err(why) => return Err(Error::input(&args.file, format!("{}: {why}", channel.name), why.way_out())),
     };
@@ -180,7 +154,7 @@ fn tuned(
     text.push('\n');
     let changed = tuned.after.setup.settings != tuned.before.setup.settings;
     if changed {
-        let _ = writeln!(text, "second row: {}", options(&tuned.after.setup, args.preset.into()));
+        let _ = writeln!(text, "second row: {}", options(&tuned.after.setup, args.candidates.preset.into()));
     } else {
         let _ = writeln!(text, "no other settings find more: {id} stays as it is");
     }
@@ -207,11 +181,12 @@ impl Progress {
     }
 }
 
-/// Gives each plan of `session` the method that is recommended for its channel, with its settings; the repair stays.
-/// Returns what was chosen and why, a line for each plan. A channel that cannot be asked keeps its method.
+/// Gives each plan of `session` the method that is recommended for its channel, with its settings, and what was measured;
+/// the repair stays. Returns what was chosen and why, a line for each plan. A channel that cannot be asked keeps its
+/// method.
 ///
 /// # Errors
-/// [`Error::Usage`] for a key that no method has; what [`advise`] gives.
+/// [`crate::error::Error::Usage`] for a key that no method has; what [`OnChannel::advise`] gives.
 pub(super) fn choose(session: &mut Session, track: &Track, shared: &Shared) -> Result<Vec<String>> {
     let asked = Asked {
         methods: &[],
@@ -226,7 +201,8 @@ pub(super) fn choose(session: &mut Session, track: &Track, shared: &Shared) -> R
         let Some(channel) = track.channel(&plan.channel) else { continue };
         let samples = Samples::of(channel, &track.time);
         let prepared = setups.iter().map(|setup| setup.clone().prepared(&plan.setup.preparation)).collect();
-        let advice = advise(track, channel, &samples, prepared, SEED, &Stop::never(), |_| ())?;
+        let on_channel = OnChannel { track, channel, samples: &samples, seed: SEED };
+        let advice = on_channel.advise(prepared, &Stop::never(), |_| ())?;
         let reasons = advice.reasons(&channel.unit).join("; ");
         lines.push(match advice.best() {
             Some(best) => {
@@ -236,6 +212,7 @@ pub(super) fn choose(session: &mut Session, track: &Track, shared: &Shared) -> R
             }
             None => format!("method {AUTO}: {reasons}; {} stays", plan.setup.method.about().id),
         });
+        plan.measured = Measurement::of(&advice, SEED, &channel.unit, &plan.setup);
     }
     Ok(lines)
 }

@@ -1,9 +1,9 @@
 //! The methods that a command puts side by side, with their settings.
 
-use crate::cli::PresetArg;
+use crate::cli::{CandidateArgs, PresetArg};
 use crate::error::{Error, Result};
 use crate::method::shared::MAX_GAP;
-use crate::method::{METHODS, Method};
+use crate::method::{Method, voting};
 use crate::session::{Preset, Setup, candidates as all_of, method_of_id};
 
 /// What the command line says of them.
@@ -21,6 +21,18 @@ pub(super) struct Asked<'a> {
     pub(super) set: &'a [(String, String)],
 }
 
+impl<'a> From<&'a CandidateArgs> for Asked<'a> {
+    fn from(args: &'a CandidateArgs) -> Self {
+        Self {
+            methods: &args.method,
+            preset: args.preset,
+            rate: args.rate.as_deref(),
+            max_gap: args.max_gap.as_deref(),
+            set: &args.set,
+        }
+    }
+}
+
 /// The methods that take part, and the ids of those that cannot, since they need a rate channel.
 #[derive(Debug)]
 pub(super) struct Candidates {
@@ -35,7 +47,7 @@ pub(super) struct Candidates {
 pub(super) fn candidates(asked: &Asked<'_>) -> Result<Candidates> {
     let named: Vec<&'static dyn Method> =
         asked.methods.iter().map(|id| Ok(method_of_id(id)?)).collect::<Result<_>>()?;
-    let all = if named.is_empty() { METHODS } else { named.as_slice() };
+    let all = if named.is_empty() { voting().collect() } else { named };
     let (mut setups, left_out) = all_of(all, Preset::from(asked.preset), asked.rate);
     if setups.is_empty() {
         return Err(Error::usage("no method takes part", "name a rate channel with --rate, or another --method"));

@@ -77,13 +77,16 @@ fn one(
         session.plans.retain(|p| any(&track, &shared.load.channel, p) || !any(&track, &shared.rate, p));
     }
     session.plans.retain(|p| !any(&track, &shared.reference, p));
-    let mut notes = if shared.is_auto() { advise::choose(&mut session, &track, shared)? } else { Vec::new() };
-    if suggested {
-        notes = suggest::suggest(&mut session, &track)?;
-    }
+    let chosen = if shared.is_auto() { advise::choose(&mut session, &track, shared)? } else { Vec::new() };
+    // These have no key of their own in the session.
+    let suggested = if suggested { suggest::suggest(&mut session, &track)? } else { Vec::new() };
     let analysed = Analysed::of(&session, &track, &Stop::never())?;
     let mut summary = Summary::of(&track, &session, &analysed);
-    summary.channels.iter_mut().zip(&notes).for_each(|(channel, note)| channel.warnings.insert(0, note.clone()));
+    summary
+        .channels
+        .iter_mut()
+        .zip(chosen.iter().chain(&suggested))
+        .for_each(|(channel, note)| channel.warnings.insert(0, note.clone()));
     if let Some(reference) = &shared.reference {
         summary.compare_with(&track, &analysed, reference)?;
     }
@@ -93,7 +96,7 @@ fn one(
     let mut files = Outputs::new(outputs.force, inputs).or_standard_output().dry(outputs.dry_run);
     stage(&mut files, outputs, &track, &session, &analysed, &mut summary)?;
     if let Some(path) = &target.session {
-        let text = suggest::noted(&document(&mut session, &track, &analysed, path)?, &notes);
+        let text = suggest::noted(&document(&mut session, &track, &analysed, path)?, &suggested);
         files.stage(path, |w| w.write_all(text.as_bytes()).map_err(Error::io("write", path)))?;
     }
     if let Some(told) = &mut summary.written {

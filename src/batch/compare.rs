@@ -4,7 +4,7 @@ use std::io::Write;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::candidates::{Asked, Candidates, candidates};
+use super::candidates::{Candidates, candidates};
 use super::comparison::{Row, Skipped, Told};
 use super::consensus::written;
 use super::{Ending, one_channel, print, print_json, set, set_threads};
@@ -33,10 +33,10 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
         let what = format!("--votes {votes}: {} methods take part", setups.len());
         return Err(Error::usage(what, format!("give 1 .. {}", setups.len())));
     }
-    let (track, index, note) = one_channel(&args.file, &args.load, args.rate.as_deref())?;
+    let (track, index, note) = one_channel(&args.file, &args.load, args.candidates.rate.as_deref())?;
     let channel = &track.channels[index];
     let samples = Samples::of(channel, &track.time);
-    let preparation = args.prepare.of(&track, channel, args.preset)?;
+    let preparation = args.candidates.prepare.of(&track, channel, args.candidates.preset)?;
     let setups: Vec<Setup> = setups.into_iter().map(|setup| setup.prepared(&preparation)).collect();
     let judged =
         set::for_all(&setups, args.outputs.quiet || args.outputs.json, |setup| judge(&track, index, &samples, setup));
@@ -69,14 +69,7 @@ pub(super) fn run(args: &CompareArgs, out: &mut dyn Write) -> Result<Ending> {
 
 /// The methods that take part with their settings, and those that cannot.
 fn setups(args: &CompareArgs) -> Result<(Vec<Setup>, Vec<Skipped>)> {
-    let asked = Asked {
-        methods: &args.method,
-        preset: args.preset,
-        rate: args.rate.as_deref(),
-        max_gap: args.max_gap.as_deref(),
-        set: &args.set,
-    };
-    let Candidates { setups, left_out } = candidates(&asked)?;
+    let Candidates { setups, left_out } = candidates(&(&args.candidates).into())?;
     let skipped = left_out.into_iter().map(|method| Skipped { method, why: "needs a rate channel (--rate)" }).collect();
     Ok((setups, skipped))
 }

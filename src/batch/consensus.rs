@@ -7,53 +7,18 @@ use super::clean;
 use super::comparison::Row;
 use crate::cli::CompareArgs;
 use crate::error::{Error, Result};
+use crate::method::consensus::{Consensus, VOTERS, VOTES, VOTING};
+use crate::method::five_point::FivePoint;
 use crate::method::shared::MAX_GAP;
-use crate::method::{About, Gated, Judged, Method, Own, Segment};
-use crate::param::{Kind, Param, Settings, Value, always};
+use crate::method::{Gated, Judged};
+use crate::param::{Value, Words};
 use crate::repair;
 use crate::report::Summary;
 use crate::review::Decisions;
 use crate::score::Score;
 use crate::session::{Analysed, Ballot, Outcome, Preparation, Preset, Session, Setup, detect, settle};
-use crate::stop::{Stop, Stopped};
+use crate::stop::Stop;
 use crate::track::{Outputs, Samples, Track};
-
-/// Stands for "at least so many methods flag it" in a result. It is none of the methods that can be chosen: by
-/// itself it judges nothing.
-struct Consensus;
-
-const VOTES: Param = Param {
-    key: "votes",
-    help: "a sample is an outlier when at least this many methods flag it",
-    unit: "methods",
-    kind: Kind::Whole { min: 1, max: 1000, step: 1 },
-    default: Value::Whole(1),
-    paper: None,
-    matters: always,
-};
-
-static PARAMS: &[Param] = &[VOTES, MAX_GAP];
-
-static ABOUT: About = About {
-    id: "consensus",
-    name: "consensus of several methods",
-    family: "consensus",
-    source: "beyond",
-    advice: "The samples that at least this many methods flag.",
-    params: PARAMS,
-    own: Own::Remove,
-    needs_rate: false,
-};
-
-impl Method for Consensus {
-    fn about(&self) -> &'static About {
-        &ABOUT
-    }
-
-    fn judge(&self, segment: &Segment<'_>, _: &Settings, _: &Stop) -> std::result::Result<Judged, Stopped> {
-        Ok(Judged::unchecked(segment.len()))
-    }
-}
 
 /// The consensus, repaired and written where it was asked for.
 ///
@@ -72,8 +37,11 @@ pub(super) fn written(
     let mut setup = Setup::new(&Consensus, Preset::Default).prepared(preparation);
     let count = i64::try_from(votes).map_err(|_| Error::usage("too many votes", "give fewer"))?;
     setup.settings.set("consensus", VOTES.key, Value::Whole(count))?;
+    if let Some(voting) = Words::of(VOTERS, ballot.ids()) {
+        setup.settings.set("consensus", VOTING.key, Value::Words(voting))?;
+    }
     setup.repair.set_text("repair", repair::METHOD.key, args.repair.as_deref().unwrap_or("linear"))?;
-    for (key, value) in [(repair::MAX_FILL.key, &args.max_fill), (MAX_GAP.key, &args.max_gap)] {
+    for (key, value) in [(repair::MAX_FILL.key, &args.max_fill), (MAX_GAP.key, &args.candidates.max_gap)] {
         if let Some(value) = value {
             setup.set_text(key, value)?;
         }
@@ -103,7 +71,15 @@ fn consensus(
 ) -> Result<Outcome> {
     let channel = &track.channels[index];
     let stop = Stop::never();
-    let mut detection = detect(track, channel, samples, setup, None, &stop)?;
+    // Of this one only the segments stay, and what the checks object to: the cheapest method will do.
+    let cheapest = Setup { repair: setup.repair.clone(), ..Setup::new(&FivePoint, Preset::Default) };
+    let mut cheapest = cheapest.prepared(&setup.preparation);
+    if let Some(gap) = setup.settings.get(MAX_GAP.key) {
+        cheapest.settings.set("five-point", MAX_GAP.key, gap)?;
+    }
+    let mut detection = detect(track, channel, samples, &cheapest, None, &stop)?;
+    let interval = detection.setup.settings.interval().unwrap_or(f64::NAN);
+    detection.setup = setup.at_interval(interval);
     let samples_seen = detection.judged.verdict().len();
     let judged = Judged { verdict: ballot.verdicts(votes), ..Judged::unchecked(samples_seen) };
     detection.judged = Gated::new(judged, None);

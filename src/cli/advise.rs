@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Load, PrepareArgs, PresetArg, pair};
+use super::{CandidateArgs, Load};
 use crate::session::detectability::SEED;
 
 /// The help of `advise`.
@@ -27,24 +27,9 @@ pub struct AdviseArgs {
     /// How to load it [default channel: the first].
     #[command(flatten)]
     pub load: Load,
-    /// Channel that measures the rate of the judged one.
-    #[arg(long, value_name = "COLUMN")]
-    pub rate: Option<String>,
-    /// Only this method; repeatable [default: all].
-    #[arg(long, value_name = "ID")]
-    pub method: Vec<String>,
-    /// Values to start from: those that work on real tracks, or those of the source documents.
-    #[arg(long, value_enum, default_value_t = PresetArg::Default)]
-    pub preset: PresetArg,
-    /// A parameter of one method, or (without ID.) of all methods that have it; repeatable.
-    #[arg(long, value_name = "[ID.]KEY=VALUE", value_parser = pair)]
-    pub set: Vec<(String, String)>,
-    /// Cut the record where more than this many samples are lost in a row.
-    #[arg(long, value_name = "N|off")]
-    pub max_gap: Option<String>,
-    /// What is done with the channel before any of the methods sees it.
+    /// What is compared.
     #[command(flatten)]
-    pub prepare: PrepareArgs,
+    pub candidates: CandidateArgs,
     /// Seed of the random numbers.
     #[arg(long, value_name = "N", default_value_t = SEED)]
     pub seed: u64,

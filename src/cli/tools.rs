@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Load, OutputArgs, PrepareArgs, PresetArg, Shared, pair};
+use super::{CandidateArgs, Load, OutputArgs, PrepareArgs, PresetArg, Shared, pair};
 use crate::error::Result;
 use crate::session::sweep::{FROM, STEPS, TO};
 use crate::session::{DEFAULT_METHOD, Preset, Setup};
@@ -100,24 +100,9 @@ pub struct CompareArgs {
     /// How to load it [default channel: the first].
     #[command(flatten)]
     pub load: Load,
-    /// Channel with the rate of change of the judged one.
-    #[arg(long, value_name = "COLUMN")]
-    pub rate: Option<String>,
-    /// Only this method; repeatable [default: all].
-    #[arg(long, value_name = "ID")]
-    pub method: Vec<String>,
-    /// Parameter values to start from: those that work on real tracks, or those of the source documents.
-    #[arg(long, value_enum, default_value_t = PresetArg::Default)]
-    pub preset: PresetArg,
-    /// A parameter of one method, or (without ID.) of all methods that have it; repeatable.
-    #[arg(long, value_name = "[ID.]KEY=VALUE", value_parser = pair)]
-    pub set: Vec<(String, String)>,
-    /// Cut the record where more than this many samples are lost in a row.
-    #[arg(long, value_name = "N|off")]
-    pub max_gap: Option<String>,
-    /// What is done with the channel before any of the methods sees it.
+    /// What is compared.
     #[command(flatten)]
-    pub prepare: PrepareArgs,
+    pub candidates: CandidateArgs,
     /// A sample is an outlier when at least this many methods flag it.
     #[arg(long, value_name = "K")]
     pub votes: Option<usize>,

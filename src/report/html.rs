@@ -109,6 +109,13 @@ fn channel(section: &Section, out: &mut String) {
     figures(section, out);
     out.push_str("<h3>Settings that matter</h3>\n");
     table(&section.settings, out);
+    if let Some(compared) = &section.compared {
+        out.push_str("<h3>Methods compared on this record</h3>\n");
+        notes(&compared.lines, out);
+        if !compared.table.rows.is_empty() {
+            table(&compared.table, out);
+        }
+    }
     out.push_str("<h3>Flags and decisions</h3>\n");
     if !section.listed.is_empty() {
         let link = section.beside.as_ref().map_or(String::new(), |file| linked(file));

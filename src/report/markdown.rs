@@ -88,6 +88,13 @@ fn channel(section: &Section, out: &mut String) {
     let marks: Vec<String> = STATES.iter().map(|(_, _, shape, words)| format!("{shape} {words}")).collect();
     let _ = write!(out, "{} · + repaired\n\n### Settings that matter\n\n", marks.join(" · "));
     table(&section.settings, out);
+    if let Some(compared) = &section.compared {
+        out.push_str("### Methods compared on this record\n\n");
+        notes(&compared.lines, out);
+        if !compared.table.rows.is_empty() {
+            table(&compared.table, out);
+        }
+    }
     out.push_str("### Flags and decisions\n\n");
     if !section.listed.is_empty() {
         let _ = write!(out, "{}\n\n", escaped(&section.listed));

@@ -13,7 +13,10 @@ use crate::track::{Source, Track};
 mod channel;
 mod citations;
 mod flagged;
+mod measured;
 mod record;
+
+pub(super) use measured::Compared;
 
 /// A session text longer than this is not put into a report.
 const LONGEST_SESSION: usize = 256 << 10;
@@ -60,6 +63,8 @@ pub(super) struct Section {
     pub(super) settings: Table,
     /// What the reader should know of the result.
     pub(super) notes: Vec<String>,
+    /// The methods side by side, where they were compared on the record.
+    pub(super) compared: Option<Compared>,
     /// The pictures.
     pub(super) figures: Vec<Figure>,
     /// How many of the runs are shown close up; empty when all are.

@@ -52,6 +52,7 @@ pub enum Action {
     AdoptPinned,
     Consensus,
     NextAgreed,
+    AdoptConsensus,
     Detectability,
     NextChannel,
     Channels,
@@ -142,6 +143,7 @@ impl Action {
                 | A::ByHand
                 | A::AcceptView
                 | A::AdoptPinned
+                | A::AdoptConsensus
                 | A::RejectView
                 | A::ClearView
                 | A::Epoch

@@ -9,7 +9,7 @@ use super::model::Model;
 use super::plot::{Pyramid, VotesPlot};
 use crate::error::{Error, Result, on_one_line};
 use crate::job::Worker;
-use crate::method::METHODS;
+use crate::method::voting;
 use crate::session::{Ballot, Detection, Preparation, Preset, Setup, candidates, detect};
 use crate::stop::Stop;
 use crate::track::{Samples, Track};
@@ -96,7 +96,7 @@ impl Poll {
     /// What there is to show until the answer comes, when it is the job `generation`.
     #[must_use]
     pub fn started(&self, generation: u64) -> Polling {
-        let of = candidates(METHODS, self.question.preset, self.question.rate.as_deref()).0.len();
+        let of = candidates(voting(), self.question.preset, self.question.rate.as_deref()).0.len();
         Polling { generation, question: self.question.clone(), plan: self.plan, done: 0, of }
     }
 
@@ -107,7 +107,7 @@ impl Poll {
     pub fn run(&self, stop: &Stop, progress: impl Fn(usize)) -> Result<Consensus> {
         let channel = &self.track.channels[self.channel];
         let samples = self.samples.series(channel, &self.track.time).len();
-        let (setups, without_rate) = candidates(METHODS, self.question.preset, self.question.rate.as_deref());
+        let (setups, without_rate) = candidates(voting(), self.question.preset, self.question.rate.as_deref());
         let mut left_out: Vec<_> = without_rate.into_iter().map(|id| (id, "needs a rate channel".to_owned())).collect();
         let mut ballot = Ballot::new(samples);
         // The channel is calibrated for the first of them.

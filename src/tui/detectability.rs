@@ -10,8 +10,8 @@ use super::message::Message;
 use super::model::Model;
 use crate::error::{Error, Result, on_one_line};
 use crate::job::Worker;
-use crate::method::METHODS;
-use crate::session::detectability::{Advice, Budget, Measured, SEED, Study, Tuned, begin};
+use crate::method::voting;
+use crate::session::detectability::{Advice, Budget, Measured, OnChannel, SEED, Study, Tuned};
 use crate::session::{Setup, candidates};
 use crate::stop::Stop;
 use crate::track::{Samples, Track};
@@ -48,6 +48,8 @@ pub struct MeasuredSetting {
     pub measured: Measured,
     /// The median of the residuals at which noise ends, in channel units.
     pub limit: f64,
+    /// False while there are copies left to judge.
+    pub is_over: bool,
 }
 
 /// A measurement that is under way.
@@ -123,7 +125,7 @@ impl Subject {
     fn setups(&self) -> Vec<Setup> {
         match self {
             Self::Methods(question) => {
-                let (setups, _) = candidates(METHODS, question.preset, question.rate.as_deref());
+                let (setups, _) = candidates(voting(), question.preset, question.rate.as_deref());
                 setups.into_iter().map(|setup| setup.prepared(&question.preparation)).collect()
             }
             Self::Setting(setup) | Self::Tuning(setup) => vec![Setup::clone(setup)],
@@ -170,7 +172,8 @@ impl Job {
     /// Makes the copies and lets every method judge them; tells what is known after each.
     fn study(&self, setups: Vec<Setup>, stop: &Stop, tell: &mut impl FnMut(Finding, [usize; 2])) -> Result<Study> {
         let channel = &self.track.channels[self.channel];
-        let mut study = begin(&self.track, channel, &self.samples, setups, SEED, stop)?;
+        let on_channel = OnChannel { track: &self.track, channel, samples: &self.samples, seed: SEED };
+        let mut study = on_channel.begin(setups, stop)?;
         loop {
             let goes_on = study.advance(stop)?;
             let rounds = study.rounds();
@@ -210,11 +213,14 @@ impl Job {
         match &self.subject {
             Subject::Methods(question) => Finding::Methods(Box::new(Studied { question: question.clone(), advice })),
             Subject::Setting(setup) | Subject::Tuning(setup) => {
-                let limit = advice.limit.unwrap_or(f64::NAN);
+                let (limit, is_over) = (advice.limit.unwrap_or(f64::NAN), advice.is_over());
                 match advice.methods.into_iter().next() {
-                    Some(measured) => {
-                        Finding::Setting(Box::new(MeasuredSetting { setup: Setup::clone(setup), measured, limit }))
-                    }
+                    Some(measured) => Finding::Setting(Box::new(MeasuredSetting {
+                        setup: Setup::clone(setup),
+                        measured,
+                        limit,
+                        is_over,
+                    })),
                     None => Finding::Nothing("nothing was measured".to_owned()),
                 }
             }

@@ -144,6 +144,7 @@ pub static KEYMAP: &[Binding] = {
         row(View, &["L"], A::LogScale, "logarithmic scale of the residual or the counts", ""),
         row(View, &["C"], A::Consensus, "run all methods: how many flag each sample", ""),
         row(View, &["g h"], A::NextAgreed, "next sample that a majority of the methods flags", ""),
+        row(View, &["g v"], A::AdoptConsensus, "flag what a majority of the methods flags (one undo step)", ""),
         row(View, &["g m"], A::Detectability, "detectability: how small a wild point these settings find", ""),
         row(View, &["B"], A::Pin, "pin the result as A and continue with B, or unpin it", ""),
         row(View, &["g d"], A::NextDifference, "next difference between A and B", ""),

@@ -385,6 +385,9 @@ impl Model {
         let kept = self.channels.iter().enumerate().map(|(i, c)| c.touched || i == self.shown);
         let mut kept: Vec<bool> = kept.collect();
         kept.reverse();
+        for (plan, channel) in document.plans.iter_mut().zip(&self.channels) {
+            plan.measured = channel.measurement(plan, &self.track.channels[channel.channel].unit);
+        }
         document.plans.retain(|_| kept.pop().unwrap_or(true));
         document
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use wildpoint::method::{METHODS, Verdict};
-use wildpoint::param::{Kind, Numbers, Settings, Value};
+use wildpoint::param::{Kind, Numbers, Settings, Value, Words};
 use wildpoint::review::{Decision, Ruling, Signature};
 use wildpoint::session::{Analysed, Outcome, Preset, Session, Setup};
 use wildpoint::stop::Stop;
@@ -90,6 +90,7 @@ fn vary(settings: &mut Settings, bytes: &mut Bytes<'_>) {
                 _ => Value::Real(bytes.real(min, max)),
             },
             Kind::Numbers => Value::Numbers(Numbers::NONE),
+            Kind::Words(list) => Value::Words(Words::all(list)),
             Kind::WholeOrOff { min, max } => match bytes.below(4) {
                 0 => Value::Word("off"),
                 _ => Value::Whole(bytes.whole(min, max)),

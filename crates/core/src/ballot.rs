@@ -24,6 +24,7 @@ pub struct Agreement {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ballot {
     flagged: Vec<u16>,
+    suspected: Vec<u16>,
     checked: Vec<u16>,
     /// The methods that voted, and the positions that each flags, ascending.
     voters: Vec<(&'static str, Vec<u32>)>,
@@ -33,12 +34,12 @@ pub struct Ballot {
 /// that cannot, since they need a rate channel and `rate` names none.
 #[must_use]
 pub fn candidates(
-    methods: &[&'static dyn Method],
+    methods: impl IntoIterator<Item = &'static dyn Method>,
     preset: Preset,
     rate: Option<&str>,
 ) -> (Vec<Setup>, Vec<&'static str>) {
     let (mut setups, mut left_out) = (Vec::new(), Vec::new());
-    for &method in methods {
+    for method in methods {
         if method.about().needs_rate && rate.is_none() {
             left_out.push(method.about().id);
             continue;
@@ -52,7 +53,7 @@ impl Ballot {
     /// No votes yet on so many samples.
     #[must_use]
     pub fn new(samples: usize) -> Self {
-        Self { flagged: vec![0; samples], checked: vec![0; samples], voters: Vec::new() }
+        Self { flagged: vec![0; samples], suspected: vec![0; samples], checked: vec![0; samples], voters: Vec::new() }
     }
 
     /// Adds the vote of a method with a verdict for each sample.
@@ -64,6 +65,7 @@ impl Ballot {
         for (i, verdict) in verdicts.iter().enumerate().take(self.flagged.len()) {
             stop.check_at(i)?;
             self.checked[i] += u16::from(*verdict != Verdict::Unchecked);
+            self.suspected[i] += u16::from(*verdict == Verdict::Suspect);
             if *verdict == Verdict::Outlier {
                 self.flagged[i] += 1;
                 own.push(u32::try_from(i).unwrap_or(u32::MAX));
@@ -77,6 +79,11 @@ impl Ballot {
     #[must_use]
     pub fn samples(&self) -> usize {
         self.flagged.len()
+    }
+
+    /// The methods that voted, in their order.
+    pub fn ids(&self) -> impl Iterator<Item = &'static str> + '_ {
+        self.voters.iter().map(|(id, _)| *id)
     }
 
     /// How many methods voted.
@@ -156,26 +163,33 @@ impl Ballot {
         all
     }
 
-    /// The verdicts when `votes` methods must agree: unchecked where so few could judge that they cannot.
+    /// The verdicts when `votes` methods must agree, as [`verdict_of`] has them.
     #[must_use]
     pub fn verdicts(&self, votes: usize) -> Vec<Verdict> {
-        let verdict = |(&flagged, &checked): (&u16, &u16)| {
-            if usize::from(flagged) >= votes {
-                Verdict::Outlier
-            } else if usize::from(checked) < votes {
-                Verdict::Unchecked
-            } else {
-                Verdict::Normal
-            }
-        };
-        self.flagged.iter().zip(&self.checked).map(verdict).collect()
+        let counts = self.flagged.iter().zip(&self.suspected).zip(&self.checked);
+        counts.map(|((f, s), c)| verdict_of([*f, *s, *c].map(usize::from), votes)).collect()
+    }
+}
+
+/// The verdict on a sample that so many methods flag, suspect and can judge, when `votes` of them must agree: suspect
+/// where so many flag or suspect it, unchecked where so few can judge it that they cannot agree.
+#[must_use]
+pub fn verdict_of([flagged, suspected, checked]: [usize; 3], votes: usize) -> Verdict {
+    if flagged >= votes {
+        Verdict::Outlier
+    } else if flagged + suspected >= votes {
+        Verdict::Suspect
+    } else if checked < votes {
+        Verdict::Unchecked
+    } else {
+        Verdict::Normal
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::METHODS;
+    use crate::method::{METHODS, voting};
 
     #[test]
     fn a_vote_counts_who_flags_and_who_could_judge() {
@@ -184,7 +198,7 @@ mod tests {
         ballot.add("a", &[O, O, N, U, S], &Stop::never()).unwrap();
         ballot.add("b", &[O, N, N, U, N], &Stop::never()).unwrap();
         ballot.add("c", &[O, O, U, O, U], &Stop::never()).unwrap();
-        assert_eq!(ballot.verdicts(1), [O, O, N, O, N]);
+        assert_eq!(ballot.verdicts(1), [O, O, N, O, S]);
         assert_eq!(ballot.verdicts(2), [O, O, N, U, N], "one of three judged the fourth sample");
         assert_eq!(ballot.verdicts(3), [O, N, U, U, U]);
         let agreement = ballot.agreement();
@@ -202,9 +216,10 @@ mod tests {
 
     #[test]
     fn methods_that_need_a_rate_are_left_out_without_one() {
-        let (setups, left_out) = candidates(METHODS, Preset::Default, None);
-        assert_eq!((left_out.as_slice(), setups.len()), (["matched"].as_slice(), METHODS.len() - 1));
-        let (setups, left_out) = candidates(METHODS, Preset::Paper, Some("v"));
+        let (setups, left_out) = candidates(voting(), Preset::Default, None);
+        // Nor does the consensus vote.
+        assert_eq!((left_out.as_slice(), setups.len()), (["matched"].as_slice(), METHODS.len() - 2));
+        let (setups, left_out) = candidates(voting(), Preset::Paper, Some("v"));
         assert!(left_out.is_empty() && setups.iter().all(|s| s.rate.as_deref() == Some("v")));
         assert!(setups.iter().all(|s| s.settings == Preset::Paper.settings(s.method)));
     }

@@ -211,6 +211,7 @@ mod tests {
                     Kind::Choice(words) => words.iter().map(|w| Value::Word(w)).collect(),
                     Kind::Switch => vec![Value::Switch(false), Value::Switch(true)],
                     Kind::Numbers => vec![Value::Numbers(Numbers::NONE)],
+                    Kind::Words(list) => vec![Value::Words(crate::param::Words::all(list))],
                 };
                 for end in ends {
                     let mut settings = defaults.clone();

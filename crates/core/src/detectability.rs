@@ -50,6 +50,7 @@ pub use excerpt::WHOLE;
 use ground::Ground;
 use round::{Round, Tally};
 pub use tuning::{Budget, Tuned};
+pub use words::{Detected, two_digits};
 
 /// So many wild points of each kind and size are put in, in all rounds together.
 const EVENTS: usize = 32;

@@ -16,6 +16,7 @@ use crate::stop::{Stop, Stopped};
 pub mod adaptive;
 pub mod alpha_beta_gamma;
 pub mod chauvenet;
+pub mod consensus;
 pub mod diff_median;
 pub mod filtered;
 pub mod five_point;
@@ -71,12 +72,18 @@ pub static METHODS: &[&dyn Method] = &[
     &diff_median::DiffMedian,
     &two_sided::TwoSided,
     &kalman::Kalman,
+    &consensus::Consensus,
 ];
 
 /// The method with this id.
 #[must_use]
 pub fn find(id: &str) -> Option<&'static dyn Method> {
     METHODS.iter().copied().find(|m| m.about().id == id)
+}
+
+/// The methods that judge by themselves: those that may be asked about one record side by side.
+pub fn voting() -> impl Iterator<Item = &'static dyn Method> {
+    METHODS.iter().copied().filter(|m| !m.asks_others())
 }
 
 /// Where a channel is cut under these settings.
@@ -125,7 +132,7 @@ pub fn judge_segments(
         let segment = Segment::of(series, range, scales, rate);
         let counted = settings.has_durations().then(|| settings.at_interval(segment.interval));
         let settings = counted.as_ref().unwrap_or(settings);
-        local::bounded_below(method.judge(&segment, settings, stop)?, &segment, settings, stop)?.bounded(stop)
+        judge_segment(method, &segment, settings, stop)
     };
     // Segments are judged in any order and put together in theirs: the number of threads changes nothing.
     let parts: Vec<Judged> = ranges.par_iter().zip(scales).map(judge).collect::<Result<_, _>>()?;
@@ -133,6 +140,19 @@ pub fn judge_segments(
     let mut whole = parts.next().unwrap_or_default();
     parts.try_for_each(|part| whole.append(part, stop))?;
     Ok(whole)
+}
+
+/// Judges one segment, with no tolerance below the floor of its sample.
+fn judge_segment(
+    method: &dyn Method,
+    segment: &Segment<'_>,
+    settings: &Settings,
+    stop: &Stop,
+) -> Result<Judged, Stopped> {
+    let judged = method.judge(segment, settings, stop)?;
+    // What others said is bounded.
+    let judged = if method.asks_others() { judged } else { local::bounded_below(judged, segment, settings, stop)? };
+    judged.bounded(stop)
 }
 
 /// A way to find wild points: a pure function from the samples of one segment and settings to verdicts.
@@ -157,6 +177,11 @@ pub trait Method: Sync {
     /// with these same settings.
     fn together(&self, settings: &Settings) -> bool {
         let _ = settings;
+        false
+    }
+
+    /// True when it judges by what other methods say: then it does not vote itself.
+    fn asks_others(&self) -> bool {
         false
     }
 

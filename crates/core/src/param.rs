@@ -11,11 +11,13 @@ mod numbers;
 mod paper;
 mod settings;
 mod value;
+mod words;
 
 pub use numbers::Numbers;
 pub use paper::Paper;
 pub use settings::Settings;
 pub use value::{Choice, Value};
+pub use words::Words;
 
 /// The unit of parameters that count samples. Whole numbers of them may be given as lengths of time, too.
 pub const SAMPLES: &str = "samples";
@@ -82,6 +84,8 @@ pub enum Kind {
     },
     /// Up to [`Numbers::MOST`] numbers.
     Numbers,
+    /// Some of a few words, at least one.
+    Words(&'static [&'static str]),
 }
 
 /// How far one step of the panel goes on a real scale.
@@ -148,6 +152,7 @@ impl Param {
             }
             Kind::WholeOrOff { min, max } => format!("off | {min} .. {max}{time}"),
             Kind::Numbers => format!("up to {} numbers", Numbers::MOST),
+            Kind::Words(words) => format!("all | some of {}", words.join(", ")),
         }
     }
 
@@ -169,6 +174,7 @@ impl Param {
             Kind::RealOr { words, .. } => word(words, text).or_else(|| text.parse().ok().map(Value::Real)),
             Kind::WholeOrOff { .. } => word(&["off"], text).or_else(|| text.parse().ok().map(Value::Whole)),
             Kind::Numbers => Numbers::parse(text).map(Value::Numbers),
+            Kind::Words(words) => Words::parse(words, text).map(Value::Words),
         };
         let read = read.or_else(|| duration::parse(text).map(Value::Duration));
         read.filter(|v| self.accepts(*v)).ok_or_else(|| self.refuse(text))
@@ -196,6 +202,7 @@ impl Param {
             (Kind::Choice(words) | Kind::RealOr { words, .. }, Value::Word(w)) => words.contains(&w),
             (Kind::WholeOrOff { .. }, Value::Word(w)) => w == "off",
             (Kind::Switch, Value::Switch(_)) | (Kind::Numbers, Value::Numbers(_)) => true,
+            (Kind::Words(list), Value::Words(words)) => words.are_of(list),
             (_, Value::Duration(seconds)) => self.takes_durations() && seconds.is_finite() && seconds > 0.0,
             _ => false,
         }

@@ -18,6 +18,7 @@ mod edit;
 mod flag_columns;
 pub mod flags;
 pub mod journal;
+pub mod measurement;
 mod output_value;
 mod position;
 mod replay;
@@ -37,6 +38,7 @@ pub use digest::Digest;
 pub use document::{parse, read, render};
 pub use edit::Edit;
 pub use flag_columns::{FlagColumn, flag_columns, write_flagged, write_flagged_columns};
+pub use measurement::Measurement;
 pub use output_value::{OutputValue, check_value, filtered, unfiltered};
 pub use position::position_check;
 pub use replay::{Accepted, Analysed, Appended, Grown, Opened, check, open, open_all};
@@ -84,8 +86,8 @@ pub struct Data {
     pub options: LoadOptions,
 }
 
-/// What to do with one channel.
-#[derive(Debug, Clone, PartialEq)]
+/// What to do with one channel. Two are equal when they lead to the same result, whatever was measured.
+#[derive(Debug, Clone)]
 pub struct Plan {
     /// Name of the channel.
     pub channel: String,
@@ -93,6 +95,14 @@ pub struct Plan {
     pub setup: Setup,
     /// The analyst's part.
     pub decisions: Decisions,
+    /// What was measured of the channel with wild points of known size.
+    pub measured: Measurement,
+}
+
+impl PartialEq for Plan {
+    fn eq(&self, other: &Self) -> bool {
+        self.channel == other.channel && self.setup == other.setup && self.decisions == other.decisions
+    }
 }
 
 /// What came out when the session was saved.
@@ -104,6 +114,14 @@ pub struct Recorded {
     pub clean_sha256: String,
     /// SHA-256 of the audit table; none in sessions of format 1.
     pub flags_sha256: Option<String>,
+}
+
+impl Plan {
+    /// A plan of a channel of which nothing was measured.
+    #[must_use]
+    pub fn new(channel: String, setup: Setup, decisions: Decisions) -> Self {
+        Self { channel, setup, decisions, measured: Measurement::default() }
+    }
 }
 
 impl Session {
@@ -123,7 +141,7 @@ impl Session {
         if let Some(column) = track.track_column() {
             options.track.get_or_insert_with(|| track.columns[column].name.clone());
         }
-        let plan = |name: &str| Plan { channel: name.into(), setup: setup.clone(), decisions: Decisions::default() };
+        let plan = |name: &str| Plan::new(name.to_owned(), setup.clone(), Decisions::default());
         Self {
             data: Data {
                 source: track.source.clone(),

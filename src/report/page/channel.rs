@@ -3,7 +3,7 @@
 use super::super::summary::{ChannelSummary, residual_line, score_line};
 use super::super::svg::{Pictures, figures};
 use super::flagged::{self, Flagged};
-use super::{Section, Table};
+use super::{Section, Table, measured};
 use crate::param::{Param, Settings, Value};
 use crate::repair;
 use crate::session::{Counts, Outcome, Plan, Preset};
@@ -25,6 +25,7 @@ pub(super) fn section(
     let chosen = repair::chosen(&plan.setup.repair);
     let calibration = summary.calibration.as_ref().map(|found| format!("the record: {}", found.words));
     let mut notes: Vec<String> = calibration.into_iter().chain(summary.warnings.iter().cloned()).collect();
+    notes.extend(measured::statement(plan, &channel.unit));
     notes.extend(summary.spline_residual.as_ref().map(residual_line));
     notes.extend(summary.score.as_ref().map(|s| format!("truth: {}", score_line(s))));
     notes.extend(
@@ -52,6 +53,7 @@ pub(super) fn section(
         ),
         counts: counts(summary),
         settings: settings(plan, &channel.unit),
+        compared: measured::compared(plan, &channel.unit),
         notes,
         advice: about.advice.split_whitespace().collect::<Vec<_>>().join(" "),
         figures,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::super::advice::{Advice, Steps};
 use super::super::chart_data::Pictures;
-use super::super::consensus::Consensus;
+use super::super::consensus::{Consensus, Question};
 use super::super::detectability::{MeasuredSetting, Studied};
 use super::super::plot::{Axis, Flags, Layers, View};
 use super::super::survey::ChannelSummary;
@@ -13,7 +13,9 @@ use super::super::smoothing::Smoothed;
 use super::Group;
 use crate::param::Settings;
 use crate::plot::{Drawn, Sides};
-use crate::session::{Plan, Setup};
+use crate::session::detectability::SEED;
+use crate::session::measurement::Detectability;
+use crate::session::{Measurement, Plan, Setup};
 use crate::track::{Samples, Track};
 
 /// What the workbench keeps for a channel, shown or not.
@@ -115,6 +117,21 @@ pub enum YMode {
 }
 
 impl ChannelState {
+    /// What was measured of the channel of `plan`: here, or before the session was opened.
+    pub(super) fn measurement(&self, plan: &Plan, unit: &str) -> Measurement {
+        let mut known = plan.measured.clone();
+        let studied = self.studied.as_deref().filter(|s| s.advice.is_over() && s.question == Question::of(&plan.setup));
+        if let Some(studied) = studied {
+            let here = Measurement::of(&studied.advice, SEED, unit, &plan.setup);
+            known = Measurement { detectability: here.detectability.or(known.detectability), ..here };
+        }
+        let own = self.measured.as_deref().filter(|m| m.is_over && m.setup.same_detection(&plan.setup));
+        if let Some(own) = own {
+            known.detectability = Some(Box::new(Detectability::of(&own.measured, SEED)));
+        }
+        known
+    }
+
     pub(super) fn new(track: &Track, plan: &Plan, touched: bool) -> Self {
         let channel = track.channels.iter().position(|c| c.name == plan.channel).unwrap_or(0);
         // A record may have many channels, and most are never shown.

@@ -5,8 +5,11 @@ use super::super::consensus::{Consensus, Question};
 use super::super::message::Effect;
 use super::super::model::{LowerKind, Model, Tone};
 use super::super::words::counted;
-use super::navigate;
+use super::{navigate, set_up};
+use crate::error::on_one_line;
+use crate::method::consensus::Consensus as Method;
 use crate::plot::step;
+use crate::session::{Preset, Setup};
 
 /// Does an action that is about all methods at once; none when it is about something else.
 pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
@@ -16,6 +19,7 @@ pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
             next_agreed(model);
             Some(Vec::new())
         }
+        Action::AdoptConsensus => Some(adopt(model)),
         _ => None,
     }
 }
@@ -73,15 +77,42 @@ fn in_words(model: &Model, consensus: &Consensus) -> String {
     let half = ballot.half();
     let agreed = counted(agreed, "sample");
     let mut text = format!(
-        "{} methods; {half} or more flag {agreed} · {} next of them",
+        "{} methods; {half} or more flag {agreed} · {} next of them · {} takes them",
         ballot.methods(),
-        model.key(Action::NextAgreed)
+        model.key(Action::NextAgreed),
+        model.key(Action::AdoptConsensus)
     );
     if !consensus.left_out.is_empty() {
         let left_out: Vec<String> = consensus.left_out.iter().map(|(id, why)| format!("{id} ({why})")).collect();
         text.push_str(&format!(" · left out: {}", left_out.join(", ")));
     }
     text
+}
+
+/// The consensus of the methods that were asked becomes the detection, at their majority: one undo step. Before they were
+/// asked, of all that can vote.
+fn adopt(model: &mut Model) -> Vec<Effect> {
+    let setup = model.plan().setup.clone();
+    let settings = match model.state().consensus.as_deref().filter(|c| c.question == Question::of(&setup)) {
+        Some(consensus) => Method::majority_of(consensus.ballot.ids()),
+        None => Ok(Preset::Default.settings(&Method)),
+    };
+    let settings = match settings {
+        Ok(settings) => settings,
+        Err(e) => {
+            model.say(Tone::Warning, on_one_line(&e));
+            return Vec::new();
+        }
+    };
+    let after = Setup { method: &Method, settings, ..setup };
+    let (votes, voters) = Method::votes(&after.settings);
+    let effects = set_up(model, after);
+    let undo = model.key(Action::Undo);
+    model.say(
+        Tone::Done,
+        format!("consensus: an outlier is what {votes} or more of {voters} methods flag · {undo} undo"),
+    );
+    effects
 }
 
 fn next_agreed(model: &mut Model) {

@@ -184,6 +184,7 @@ fn values(
     }
     let words: &[&str] = match param.kind {
         Kind::Choice(words) | Kind::RealOr { words, .. } => words,
+        Kind::Words(_) => &["all"],
         Kind::Switch => &["true", "false"],
         Kind::WholeOrOff { .. } => &["off"],
         Kind::Whole { .. } | Kind::Real { .. } | Kind::Numbers => &[],

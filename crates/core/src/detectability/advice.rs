@@ -6,7 +6,7 @@ use super::curve::{Curve, Point, sizes};
 use super::event::Kind;
 use super::ground::Ground;
 use super::round::{Found, Tally};
-use super::{Alone, Study, Unsuitable};
+use super::{Alone, EVENTS, Study, Unsuitable};
 use crate::setup::Setup;
 
 /// What weighs as much as a recall that is worse by 0.1: one false flag in so many samples.
@@ -59,7 +59,8 @@ pub struct Measured {
     pub removed: usize,
     /// The share that it finds, from 0 to 1: the mean over sizes; single points weigh as much as all other kinds together.
     pub recall: f64,
-    /// The recall less a tenth for each false flag in a hundred samples.
+    /// The recall less a tenth for each false flag in a hundred samples, and less the share that it misses of what half of
+    /// the methods flag on the record as it is.
     pub merit: f64,
     /// Milliseconds for the record as it is, with the calibration known.
     pub milliseconds: f64,
@@ -70,8 +71,11 @@ pub struct Measured {
 pub struct Untouched {
     /// Outliers.
     pub flagged: usize,
-    /// Those that fewer than half of the methods flag: they are taken for false.
+    /// Those that fewer than half of the methods flag: they are taken for false. A method counts as much as it finds of
+    /// what was put in.
     pub alone: usize,
+    /// Samples that half of the methods flag and this one does not: they are taken for wild points of the record's own.
+    pub missed: usize,
     /// Suspects.
     pub suspects: usize,
     /// Samples that it cannot judge.
@@ -141,17 +145,19 @@ impl Measured {
 /// What is known of the methods of `setups`, from what they found and what they say of the record as it is.
 pub(super) fn measured(ground: &Ground, setups: &[Setup], tallies: &[Tally], said: &[Alone]) -> Vec<Measured> {
     let (kinds, limit, tried) = (ground.kinds(), ground.typical_limit(), ground.y.len());
-    let alone = alone(&said.iter().map(|said| said.flagged.as_slice()).collect::<Vec<_>>(), tried);
-    let of = |(index, setup): (usize, &Setup)| {
-        let (tally, said) = (&tallies[index], &said[index]);
+    let found: Vec<Vec<Curve>> = tallies.iter().map(|tally| curves(&kinds, &tally.found, limit)).collect();
+    let recalls: Vec<f64> = found.iter().map(|curves| recall(curves)).collect();
+    let flagged: Vec<&[u32]> = said.iter().map(|said| said.flagged.as_slice()).collect();
+    let majority = Majority::of(&flagged, &recalls, tried);
+    let of = |(index, (setup, kinds)): (usize, (&Setup, Vec<Curve>))| {
+        let (tally, said, recall) = (&tallies[index], &said[index], recalls[index]);
         let untouched = Untouched {
             flagged: said.flagged.len(),
-            alone: alone[index],
+            alone: majority.alone(&said.flagged),
+            missed: majority.missed(&said.flagged),
             suspects: said.suspects,
             unchecked: said.unchecked,
         };
-        let kinds = curves(&kinds, &tally.found, limit);
-        let recall = recall(&kinds);
         Measured {
             setup: setup.clone(),
             kinds,
@@ -159,11 +165,13 @@ pub(super) fn measured(ground: &Ground, setups: &[Setup], tallies: &[Tally], sai
             repair_error: tally.repairs.error(),
             removed: tally.repairs.removed,
             recall,
-            merit: recall - 0.1 * FALSE * share(untouched.alone, tried),
+            merit: recall
+                - 0.1 * FALSE * share(untouched.alone, tried)
+                - share(untouched.missed, majority.agreed + EVENTS),
             milliseconds: said.milliseconds,
         }
     };
-    setups.iter().enumerate().map(of).collect()
+    setups.iter().zip(found).enumerate().map(of).collect()
 }
 
 fn curves(kinds: &[Kind], found: &[Found], limit: f64) -> Vec<Curve> {
@@ -178,12 +186,43 @@ fn curves(kinds: &[Kind], found: &[Found], limit: f64) -> Vec<Curve> {
     kinds.iter().map(of_kind).collect()
 }
 
-/// For each list of flagged positions how many of them fewer than half of the lists have.
-fn alone(flagged: &[&[u32]], samples: usize) -> Vec<usize> {
-    let mut votes = vec![0_usize; samples];
-    flagged.iter().flat_map(|list| list.iter()).for_each(|&at| votes[at as usize] += 1);
-    let few = |at: &&u32| 2 * votes[**at as usize] < flagged.len();
-    flagged.iter().map(|list| list.iter().filter(few).count()).collect()
+/// What the methods together say of the record as it is. A method has as much weight as it finds of what was put in: one
+/// that finds nothing says nothing by not flagging either.
+struct Majority {
+    /// For each sample the weight of the methods that flag it.
+    votes: Vec<f64>,
+    /// What makes half of all weight.
+    half: f64,
+    /// How many samples half of the weight flags.
+    agreed: usize,
+}
+
+impl Majority {
+    fn of(flagged: &[&[u32]], weights: &[f64], samples: usize) -> Self {
+        let mut votes = vec![0.0; samples];
+        for (list, weight) in flagged.iter().zip(weights) {
+            list.iter().for_each(|&at| votes[at as usize] += weight);
+        }
+        // Sums in another order may differ in their last bits: what is half of them is no less.
+        let half = 0.5 * weights.iter().sum::<f64>() * (1.0 - 1e-9);
+        let mut all = Self { votes, half, agreed: 0 };
+        all.agreed = (0..samples).filter(|&at| all.flags(at)).count();
+        all
+    }
+
+    fn flags(&self, at: usize) -> bool {
+        self.votes[at] > 0.0 && self.votes[at] >= self.half
+    }
+
+    /// How many of these less than half of the weight flags.
+    fn alone(&self, flagged: &[u32]) -> usize {
+        flagged.iter().filter(|at| !self.flags(**at as usize)).count()
+    }
+
+    /// How many that half of the weight flags are not among these.
+    fn missed(&self, flagged: &[u32]) -> usize {
+        self.agreed - (flagged.len() - self.alone(flagged))
+    }
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts of samples are far below 2^53")]
@@ -235,7 +274,20 @@ mod tests {
 
     #[test]
     fn what_half_of_the_methods_flag_is_not_false() {
-        assert_eq!(alone(&[&[1, 5], &[5], &[5, 7], &[]], 10), [1, 0, 1, 0]);
-        assert_eq!(alone(&[&[3]], 10), [0], "one method alone has nobody to disagree with");
+        let lists: [&[u32]; 4] = [&[1, 5], &[5], &[5, 7], &[]];
+        let majority = Majority::of(&lists, &[1.0; 4], 10);
+        assert_eq!(lists.map(|list| majority.alone(list)), [1, 0, 1, 0]);
+        assert_eq!((majority.agreed, lists.map(|list| majority.missed(list))), (1, [0, 0, 0, 1]));
+        let one = Majority::of(&[&[3]], &[0.4], 10);
+        assert_eq!((one.alone(&[3]), one.missed(&[3])), (0, 0), "one method alone has nobody to disagree with");
+    }
+
+    #[test]
+    fn methods_that_find_nothing_have_no_say() {
+        // Three methods collapse on a record full of wild points; the fourth does not.
+        let lists: [&[u32]; 4] = [&[], &[], &[], &[2, 4, 6]];
+        assert_eq!(Majority::of(&lists, &[1.0; 4], 10).alone(lists[3]), 3);
+        let majority = Majority::of(&lists, &[0.0, 0.05, 0.05, 0.8], 10);
+        assert_eq!((majority.alone(lists[3]), majority.missed(lists[1])), (0, 3));
     }
 }

@@ -31,6 +31,20 @@ impl Kind {
     /// The kinds that every record can have.
     pub const COMMON: [Self; 4] = [Self::Single, Self::RunOf2, Self::RunOf5, Self::RunOf10];
 
+    /// Every kind.
+    pub const ALL: [Self; 6] = [Self::Single, Self::RunOf2, Self::RunOf5, Self::RunOf10, Self::Held, Self::Dropout];
+
+    /// The key of session files and of JSON.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::RunOf2 => "run-of-2",
+            Self::RunOf5 => "run-of-5",
+            Self::RunOf10 => "run-of-10",
+            other => other.word(),
+        }
+    }
+
     /// How it is called in a table.
     #[must_use]
     pub fn word(self) -> &'static str {
@@ -129,6 +143,13 @@ mod tests {
         let all = everything(&[Kind::Single, Kind::Dropout, Kind::RunOf5]);
         assert_eq!(all.len(), 2 * SIZES.len() + 1);
         assert_eq!(all[SIZES.len()], Wanted { kind: Kind::Dropout, size: 0 });
+    }
+
+    #[test]
+    fn a_kind_has_the_key_that_json_has() {
+        for kind in Kind::ALL {
+            assert_eq!(serde_json::to_value(kind).unwrap(), kind.key());
+        }
     }
 
     #[test]

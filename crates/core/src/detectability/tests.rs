@@ -1,7 +1,7 @@
 //! The laws of a study.
 
 use super::*;
-use crate::method::METHODS;
+use crate::method::voting;
 use crate::setup::Preset;
 
 fn record(n: u32, noise: f64) -> (Vec<f64>, Vec<f64>) {
@@ -12,8 +12,8 @@ fn record(n: u32, noise: f64) -> (Vec<f64>, Vec<f64>) {
 }
 
 fn setups() -> Vec<Setup> {
-    let own = METHODS.iter().filter(|m| !m.about().needs_rate);
-    own.map(|method| Setup::new(*method, Preset::Default)).collect()
+    let own = voting().filter(|m| !m.about().needs_rate);
+    own.map(|method| Setup::new(method, Preset::Default)).collect()
 }
 
 fn finished(t: &[f64], y: &[f64], setups: Vec<Setup>, seed: u64) -> Advice {

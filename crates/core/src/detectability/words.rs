@@ -1,18 +1,41 @@
 //! What a study found, in words.
 
-use super::{Advice, Curve, Measured, OF_ALL, Unsuitable};
+use super::{Advice, Curve, Kind, Measured, OF_ALL, Unsuitable};
 use crate::calibration::amount;
 
-impl Measured {
-    /// How small a wild point it finds, for a channel in `unit` (may be empty): "finds 95 % of single points from 42 ft,
-    /// of runs of 5 from 60 ft".
+/// What a setting finds of wild points of one kind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Detected {
+    /// The kind.
+    pub kind: Kind,
+    /// The size from which on [`OF_ALL`] are found, in channel units; none where the largest are not, and for a kind
+    /// without sizes.
+    pub smallest: Option<f64>,
+    /// Share found, the mean over all sizes; none before any was put in.
+    pub recall: Option<f64>,
+}
+
+impl Detected {
+    /// In a cell of a table: the size, or the share of a kind without sizes; `-` where there is none.
     #[must_use]
-    pub fn detectability(&self, unit: &str) -> String {
-        let sized: Vec<&Curve> = self.kinds.iter().filter(|curve| curve.kind.has_sizes()).collect();
+    pub fn cell(&self) -> String {
+        let text = if self.kind.has_sizes() {
+            self.smallest.map(two_digits)
+        } else {
+            self.recall.map(|recall| format!("{:.0} %", 100.0 * recall))
+        };
+        text.unwrap_or_else(|| "-".to_owned())
+    }
+
+    /// From which sizes on wild points are found, for a channel in `unit` (may be empty): "finds 95 % of single points
+    /// from 42 ft, of runs of 5 from 60 ft".
+    #[must_use]
+    pub fn in_words(all: &[Self], unit: &str) -> String {
+        let sized: Vec<&Self> = all.iter().filter(|found| found.kind.has_sizes()).collect();
         let found =
-            sized.iter().filter_map(|c| Some(format!("{} from {}", c.kind.plural(), amount(c.smallest?, unit))));
+            sized.iter().filter_map(|f| Some(format!("{} from {}", f.kind.plural(), amount(f.smallest?, unit))));
         let found: Vec<String> = found.collect();
-        let missed: Vec<&str> = sized.iter().filter(|c| c.smallest.is_none()).map(|c| c.kind.plural()).collect();
+        let missed: Vec<&str> = sized.iter().filter(|f| f.smallest.is_none()).map(|f| f.kind.plural()).collect();
         let mut words = match found.is_empty() {
             true => String::new(),
             false => format!("finds {:.0} % of {}", 100.0 * OF_ALL, found.join(", of ")),
@@ -22,6 +45,33 @@ impl Measured {
             words += &format!("{link}does not find {:.0} % of {} of any size", 100.0 * OF_ALL, missed.join(" or "));
         }
         words
+    }
+}
+
+impl From<&Curve> for Detected {
+    fn from(curve: &Curve) -> Self {
+        Self { kind: curve.kind, smallest: curve.smallest, recall: curve.recall }
+    }
+}
+
+/// A number with two digits, as tables show sizes.
+#[must_use]
+pub fn two_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    rounded.to_string()
+}
+
+impl Measured {
+    /// What it finds, kind by kind.
+    #[must_use]
+    pub fn detected(&self) -> Vec<Detected> {
+        self.kinds.iter().map(Detected::from).collect()
+    }
+
+    /// [`Detected::in_words`] of what it finds.
+    #[must_use]
+    pub fn detectability(&self, unit: &str) -> String {
+        Detected::in_words(&self.detected(), unit)
     }
 
     /// What it flags on the record as it is: "flags 3 samples, 1 of them alone among the methods".

@@ -130,7 +130,7 @@ fn objections(calibration: &Calibration, stop: &Stop) -> Result<Arc<[Objection]>
 }
 
 /// False when the method measures a scale of its own and knows none of the words that ask for one of these.
-fn by_noise(settings: &Settings) -> bool {
+pub(super) fn by_noise(settings: &Settings) -> bool {
     let knows = |kind| matches!(kind, Kind::RealOr { words, .. } if words.contains(&"difference"));
     settings.params().iter().any(|p| p.key == "sigma" && knows(p.kind))
 }

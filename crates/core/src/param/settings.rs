@@ -1,6 +1,6 @@
 //! One value for each parameter of a list.
 
-use super::{Choice, Kind, Numbers, Param, Value, find};
+use super::{Choice, Kind, Numbers, Param, Value, Words, find};
 use crate::error::Result;
 
 /// One legal value for each parameter of a list. Cloning is cheap; two settings of one method compare by value.
@@ -203,6 +203,19 @@ impl Settings {
         match self.get(key) {
             Some(Value::Numbers(list)) => list,
             other => panic!("{key}: read as numbers, declared as {other:?}"),
+        }
+    }
+
+    /// The words of `key`.
+    ///
+    /// # Panics
+    /// When the list has no such parameter.
+    #[must_use]
+    #[track_caller]
+    pub fn words(&self, key: &str) -> Words {
+        match self.get(key) {
+            Some(Value::Words(words)) => words,
+            other => panic!("{key}: read as words, declared as {other:?}"),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Numbers, duration};
+use super::{Numbers, Words, duration};
 
 /// The value of one parameter. Prints in the form that `--set` and the session file read back.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -18,6 +18,8 @@ pub enum Value {
     Switch(bool),
     /// A few numbers.
     Numbers(Numbers),
+    /// Some of the words of the parameter.
+    Words(Words),
     /// A length of time in seconds, for a parameter that counts samples.
     #[serde(serialize_with = "duration_text")]
     Duration(f64),
@@ -46,6 +48,7 @@ impl fmt::Display for Value {
             Self::Word(w) => f.write_str(w),
             Self::Switch(b) => write!(f, "{b}"),
             Self::Numbers(list) => write!(f, "{list}"),
+            Self::Words(words) => write!(f, "{words}"),
             Self::Duration(seconds) => f.write_str(&duration::text(*seconds)),
         }
     }

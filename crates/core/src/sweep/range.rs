@@ -52,7 +52,7 @@ fn range(param: &Param) -> Option<RangeInclusive<f64>> {
     match param.kind {
         Kind::Whole { min, max, .. } | Kind::WholeOrOff { min, max } => Some(min as f64..=max as f64),
         Kind::Real { min, max, .. } | Kind::RealOr { min, max, .. } => Some(min..=max),
-        Kind::Choice(_) | Kind::Switch | Kind::Numbers => None,
+        Kind::Choice(_) | Kind::Switch | Kind::Numbers | Kind::Words(_) => None,
     }
 }
 

@@ -1,6 +1,7 @@
 //! The session file: TOML, meant to be read and diffed. Every value of every knob is written, so that a later
 //! default cannot change an old result.
 
+mod measurement;
 mod read;
 mod write;
 

@@ -9,11 +9,12 @@ use serde::Deserialize;
 use toml::{Spanned, Table};
 use wildpoint_core::error::Error as CoreError;
 
+use super::measurement::{self, WrittenAdvice, WrittenDetectability};
 use super::{FORMAT, OLDEST};
 use crate::check::{Applied, find as find_check};
 use crate::error::{Error, Result};
 use crate::memory::Share;
-use crate::param::{Kind, Numbers, Param, Settings, Value, find};
+use crate::param::{Kind, Numbers, Param, Settings, Value, Words, find};
 use crate::repair;
 use crate::review::{Decision, Decisions, Ruling, Signature};
 use crate::session::digest::{Digest, WrittenDigest};
@@ -135,6 +136,8 @@ struct WrittenChannel {
     exclude_decided: bool,
     #[serde(default)]
     decisions: Vec<Spanned<WrittenDecision>>,
+    advice: Option<WrittenAdvice>,
+    detectability: Option<WrittenDetectability>,
 }
 
 #[derive(Deserialize)]
@@ -255,7 +258,7 @@ fn parse_with_texts(path: &Path, text: &str) -> Result<Read> {
     let mut texts = Vec::new();
     for channel in document.channel {
         let line = line_of(text, channel.span().start);
-        let (plan, written) = reader.plan(channel.into_inner())?;
+        let (plan, written) = reader.plan(channel.into_inner(), Some(line))?;
         if plans.iter().any(|p: &Plan| p.channel == plan.channel) {
             return Err(fault(
                 path,
@@ -366,7 +369,8 @@ impl Reader<'_> {
         T::of_word(word.get_ref()).map(Some).ok_or_else(unknown)
     }
 
-    fn plan(&self, channel: WrittenChannel) -> Result<(Plan, Vec<WrittenDecision>)> {
+    /// The plan of the channel that begins at the line `at`.
+    fn plan(&self, channel: WrittenChannel, at: Option<usize>) -> Result<(Plan, Vec<WrittenDecision>)> {
         let method_line = self.line(channel.method.span());
         let method = method_of_id(channel.method.get_ref()).map_err(|e| self.wrap(method_line, e))?;
         let about = method.about();
@@ -410,7 +414,9 @@ impl Reader<'_> {
             exclude_decided: channel.exclude_decided,
         };
         let setup = Setup { method, settings, rate: channel.rate, repair, preparation };
-        Ok((Plan { channel: channel.name, setup, decisions }, written))
+        let measured = measurement::read(channel.advice, channel.detectability, &setup)
+            .map_err(|what| fault(self.path, at, what, "correct it, or take the table out of the session"))?;
+        Ok((Plan { measured, ..Plan::new(channel.name, setup, decisions) }, written))
     }
 
     fn check(&self, written: Spanned<WrittenCheck>) -> Result<Applied> {
@@ -472,12 +478,17 @@ fn value_of(param: &Param, value: &toml::Value) -> std::result::Result<Value, Co
     let words: &[&str] = match param.kind {
         Kind::Choice(words) | Kind::RealOr { words, .. } => words,
         Kind::WholeOrOff { .. } => &["off"],
-        Kind::Whole { .. } | Kind::Real { .. } | Kind::Switch | Kind::Numbers => &[],
+        Kind::Whole { .. } | Kind::Real { .. } | Kind::Switch | Kind::Numbers | Kind::Words(_) => &[],
     };
     match value {
         toml::Value::Integer(n) => param.accept(Value::Whole(*n)),
         toml::Value::Float(x) => param.accept(Value::Real(*x)),
         toml::Value::Boolean(b) => param.accept(Value::Switch(*b)),
+        toml::Value::Array(texts) if let Kind::Words(list) = param.kind => {
+            let words: Option<Vec<&str>> = texts.iter().map(toml::Value::as_str).collect();
+            let words = words.and_then(|words| Words::of(list, words));
+            words.map_or_else(|| Err(illegal(param, value)), |words| param.accept(Value::Words(words)))
+        }
         toml::Value::Array(list) => {
             numbers(list).map_or_else(|| Err(illegal(param, value)), |numbers| param.accept(Value::Numbers(numbers)))
         }

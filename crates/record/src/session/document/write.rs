@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use super::FORMAT;
+use super::{FORMAT, measurement};
 use crate::error::{Error, Result};
 use crate::param::{Param, Settings, Value};
 use crate::session::signature::at_text;
@@ -49,6 +49,7 @@ pub fn render(session: &Session, path: &Path, texts: &[Vec<(String, String)>]) -
         line(format!("repair = {}", inline(&plan.setup.repair)));
         preparation(&plan.setup.preparation).into_iter().for_each(&mut line);
         decisions(plan, texts).into_iter().for_each(&mut line);
+        measurement::lines(&plan.measured, &plan.setup).into_iter().for_each(&mut line);
     }
     if let Some(result) = &session.result {
         line("\n[result]".into());
@@ -213,8 +214,14 @@ fn assignment(param: &Param, value: Value) -> String {
     match value {
         Value::Word(_) | Value::Duration(_) => format!("{} = {}", param.key, quoted(&value.to_string())),
         Value::Numbers(list) => format!("{} = {:?}", param.key, list.as_slice()),
+        Value::Words(words) => format!("{} = {}", param.key, list(words.iter())),
         other => format!("{} = {other}", param.key),
     }
+}
+
+/// Texts as an array on one line.
+pub(super) fn list<'a>(texts: impl Iterator<Item = &'a str>) -> String {
+    format!("[{}]", texts.map(quoted).collect::<Vec<_>>().join(", "))
 }
 
 pub(in crate::session) fn quoted(text: &str) -> String {

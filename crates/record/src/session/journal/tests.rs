@@ -10,7 +10,7 @@ const ROWS: usize = 50;
 
 /// A session on a record that nobody reads.
 fn session() -> Session {
-    let plan = |name: &str| Plan { channel: name.into(), setup: Setup::standard(), decisions: Decisions::default() };
+    let plan = |name: &str| Plan::new(name.into(), Setup::standard(), Decisions::default());
     let source = Source::File("/nowhere/record.csv".into());
     let data = Data {
         source,

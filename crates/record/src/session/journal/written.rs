@@ -227,7 +227,7 @@ impl WrittenEntry {
             (Some(setup), Some(list), None) => {
                 let mut decisions = Decisions::default();
                 read(list)?.into_iter().for_each(|(row, d)| decisions.set(row, d));
-                Some(Entry::Whole(Box::new(Plan { channel, setup: setup.read()?, decisions })))
+                Some(Entry::Whole(Box::new(Plan::new(channel, setup.read()?, decisions))))
             }
             (Some(setup), None, None) => Some(Entry::Setup { channel, setup: Box::new(setup.read()?) }),
             (None, None, Some(list)) => Some(Entry::Decide { channel, decisions: read(list)? }),

@@ -8,7 +8,7 @@ use crate::track::{LoadOptions, Source};
 const ROWS: u32 = 6;
 
 fn session() -> Session {
-    let plan = |name: &str| Plan { channel: name.into(), setup: Setup::standard(), decisions: Decisions::default() };
+    let plan = |name: &str| Plan::new(name.into(), Setup::standard(), Decisions::default());
     let source = Source::File("/nowhere/record.csv".into());
     let data = Data {
         source,
