@@ -90,6 +90,7 @@ fn of_size(criterion: &mut Criterion, name: &str, n: usize, share_flagged: f64) 
             expected: other,
             band: other,
             repaired: other,
+            filtered: None,
             gap: 1.0,
         };
         let view = View::whole(trace.axis);

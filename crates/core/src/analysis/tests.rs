@@ -76,6 +76,8 @@ fn the_filtered_track_goes_on_under_a_run_and_follows_the_analyst() {
     assert!(track.value.iter().zip(&truth).all(|(v, truth)| (v - truth).abs() < 3.0), "{:?}", track.value);
     assert!(track.deviation.iter().all(|d| *d > 0.0 && *d < 1.5), "{:?}", track.deviation);
     let mut kept = Decisions::default();
-    kept.set(150, Some(Decision { ruling: crate::review::Ruling::Normal, note: String::new(), said: None }));
+    let signature = crate::review::Signature::default();
+    let ruling = crate::review::Ruling::Normal;
+    kept.set(150, Some(Decision { ruling, note: String::new(), said: None, signature }));
     assert!(of(&kept).value[150] - truth[150] > 10.0, "what the analyst keeps enters the filter");
 }
