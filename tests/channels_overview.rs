@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
 
+#[expect(dead_code, reason = "other test programs use the rest")]
 mod workbench;
 
 use std::fmt::Write as _;
