@@ -37,7 +37,10 @@ fn clean_writes_the_files_of_the_contract() {
              action,decided_by,note"
         )
     );
-    assert_eq!(diagnostics.lines().next(), Some("row,time,channel,raw,verdict,expected,tolerance,clean,filtered,filtered_deviation"));
+    assert_eq!(
+        diagnostics.lines().next(),
+        Some("row,time,channel,raw,verdict,expected,tolerance,clean,filtered,filtered_deviation")
+    );
     // A row for every sample of both channels.
     assert_eq!(diagnostics.lines().count(), 1 + 2 * 2356);
     // The truth column was written by the simulation: every wild point of the velocity is in the table.

@@ -1,6 +1,6 @@
 use super::*;
-use crate::setup::Preset;
 use crate::check::Applied;
+use crate::setup::Preset;
 
 /// A wavy channel of 400 samples with a fill value at every 20th.
 fn filled() -> (Vec<f64>, Vec<f64>) {

@@ -258,7 +258,7 @@ mod tests {
             let data = super::super::Data { source: Source::File(record.clone().into()), sha256: String::new(), bytes: None, record_was: None, rows: 1,
                 row_check: None, options };
             let plan = Plan { channel, setup, decisions: crate::review::Decisions::default() };
-            let session = Session { data, plans: vec![plan], result: None };
+            let session = Session { data, plans: vec![plan], value: OutputValue::Clean, result: None };
             let output = Path::new(&output);
             for line in [clean_command(&session, &TRACK, output).unwrap(), replay_command(Path::new(&record), output)] {
                 proptest::prop_assert!(line.chars().all(is_shown), "{line:?}");
