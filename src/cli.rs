@@ -115,7 +115,7 @@ pub enum Command {
     ///
     /// With several files the outputs are folders (`-o DIR/`, `--flags DIR/`, ...): the cleaned file keeps its name,
     /// the others are NAME.changed.csv, NAME.flags.csv, NAME.diagnostics.csv, NAME.html and NAME.toml. A file that fails does not stop the
-    /// others; the exit status is 2 then.
+    /// others; the exit status is then 2.
     #[command(before_help = "Example: wildpoint clean data/demo.csv -o clean.csv --flags flags.csv")]
     Clean {
         /// The records.
@@ -143,7 +143,7 @@ pub enum Command {
     /// Run saved sessions again.
     ///
     /// With several sessions the outputs are folders (`-o DIR/`, `--flags DIR/`, ...), in which files are named after
-    /// the sessions. A session that fails does not stop the others; the exit status is 2 then, and 1 when only
+    /// the sessions. A session that fails does not stop the others; the exit status is then 2, and 1 when only
     /// comparisons failed.
     #[command(before_help = "Example: wildpoint replay demo.toml --check")]
     Replay {
@@ -258,8 +258,8 @@ pub struct Shared {
     /// sqrt(mean((clean - reference)^2)) over the samples that have a value in the output.
     #[arg(long, value_name = "COLUMN")]
     pub reference: Option<String>,
-    /// Method (see `wildpoint methods`); `clean` takes auto, too: for each channel the one that `wildpoint advise`
-    /// recommends.
+    /// Method (see `wildpoint methods`); `clean` also takes auto: the method that `wildpoint advise` recommends
+    /// for each channel.
     #[arg(long, value_name = "ID", default_value = DEFAULT_METHOD)]
     pub method: String,
     /// Parameter values to start from: those that work on real tracks, or those of the source documents.

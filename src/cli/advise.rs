@@ -10,14 +10,14 @@ use crate::session::detectability::SEED;
 /// The help of `advise`.
 pub(super) const ADVISE: &str = "\
      Which method finds most on this record, measured on the record itself.\n\n\
-     Copies of the channel get wild points of known size in calm places: single ones, runs of 2, 5 and 10, and, where \
-     the record has such, held values and dropouts; from 1 to 100 times the residual at which its noise ends. Every \
-     method judges every copy. The table shows from which size on 95 % are found, kind by kind; how much of all is \
-     found; how many samples of the untouched record are flagged, and how many of those fewer than half of the methods \
-     flag; and how far repaired values are from those before. Of a channel with more than 65,536 samples 16 pieces are \
-     taken.\n\n\
+     Copies of the channel receive wild points of known size in calm places: single ones, runs of 2, 5 and 10, and, \
+     where the record has such, held values and dropouts; from 1 to 100 times the residual at which its noise ends. Every \
+     method judges every copy. The table shows the size from which 95 % are found, for each kind; the share found in \
+     all; how many samples of the untouched record are flagged, and how many of those fewer than half of the methods \
+     flag; and how far repaired values are from the original ones. Of a channel with more than 65,536 samples 16 \
+     pieces are used.\n\n\
      The points that are put in are not the record's own wild points: the advice says what would be found, not what is \
-     there. Without --channel the first channel is taken, and named.";
+     there. Without --channel, the first channel is used, and its name printed.";
 
 /// What `advise` compares.
 #[derive(Debug, Clone, Args)]
@@ -33,7 +33,7 @@ pub struct AdviseArgs {
     /// Seed of the random numbers.
     #[arg(long, value_name = "N", default_value_t = SEED)]
     pub seed: u64,
-    /// Search settings of this method with which it finds more, its threshold and noise scale aside.
+    /// Search settings of this method that find more; threshold and noise scale stay as they are.
     #[arg(long, value_name = "METHOD", conflicts_with = "method")]
     pub tune: Option<String>,
     /// Try no further settings after this many seconds.

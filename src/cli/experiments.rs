@@ -36,7 +36,8 @@ pub struct SimulateArgs {
 /// Run the published experiments and print their tables beside ours.
 ///
 /// Under each table stand the statements of the document: those that hold in the figures measured here, those that do not,
-/// and those that nothing here can tell, with the figures. The documents' data are not public; what stands in for them is told with each.
+/// and those that cannot be decided here, with the figures. The documents' data are not public; each experiment
+/// describes its stand-in.
 /// Runs on all cores.
 #[derive(Debug, Clone, Args)]
 pub struct ReproduceArgs {
@@ -55,7 +56,7 @@ pub struct ReproduceArgs {
     #[arg(long)]
     pub json: bool,
     /// Write an HTML file, a page for each document: its figures drawn from our runs, its tables beside ours, its
-    /// statements with what became of them.
+    /// statements and whether they hold.
     #[arg(long, value_name = "FILE.html", value_parser = html)]
     pub report: Option<PathBuf>,
     /// Overwrite an existing report.

@@ -81,6 +81,6 @@ fn scheme() -> impl TypedValueParser<Value = &'static Scheme> {
 
 fn scheme_help() -> String {
     let schemes: Vec<String> = SCHEMES.iter().map(|scheme| format!("{} ({})", scheme.id, scheme.about())).collect();
-    let what = "Add columns of flags at the right of the cleaned file, COLUMN_flag for each judged column";
+    let what = "Add columns of flags on the right of the cleaned file, COLUMN_flag for each judged column";
     format!("{what}: {}", schemes.join("; "))
 }

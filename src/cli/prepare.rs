@@ -14,12 +14,12 @@ pub struct PrepareArgs {
     /// A check before the method; repeatable. What it flags is an outlier or a suspect, and the method does not see it.
     ///
     /// valid-range:low=L,high=H; missing-values:values=-9999,1e20; stuck:fail=N,suspect=N (equal values in a row);
-    /// rate:fail=R,suspect=R (change per second); null-island:channels=LAT,LON; none. Without this option the checks that
-    /// the record itself leaves no doubt about are made, as `inspect` tells.
+    /// rate:fail=R,suspect=R (change per second); null-island:channels=LAT,LON; none. Without this option, checks that the
+    /// record clearly needs are made; `inspect` lists them.
     #[arg(long, value_name = "ID[:KEY=VALUE,...]")]
     pub check: Vec<String>,
     /// Period of circular channels (360, 24, 2pi), judged unwrapped and written wrapped; off: none. Repeatable, with the
-    /// name of a channel before it [default: by unit and name, where the data consent].
+    /// name of a channel before it [default: by unit and name, if the data agree].
     #[arg(long, value_name = "[CHANNEL=]PERIOD")]
     pub period: Vec<String>,
     /// Channels that are one position: a fix that cannot be reached at the largest speed of the track is an outlier in

@@ -12,14 +12,14 @@ use crate::session::{DEFAULT_METHOD, Preset, Setup};
 /// The help of `sweep`.
 pub(super) const SWEEP: &str = "\
      Count the outliers of a method along one of its parameters, and suggest a threshold.\n\n\
-     True wild points stand far off: between the noise and them lies a range of thresholds that all flag the \
+     True wild points lie far from the noise: between them is a range of thresholds that all flag the \
      same samples. The table shows the count for each value of the parameter (the multiplier k or c when none \
      is named). A plateau is a range of at least a factor of 1.5 over which the count is above 0, at most a tenth \
      of the samples, and changes by no more than 1 or 2 %. The suggestion is the first value from the default \
-     upwards from which the count keeps 85 % of itself up to 1.4 times the value: often the default. Without \
-     such a value the command says why. With a truth \
-     column the table also shows what is missed and what is flagged falsely. The decisions of an analyst play \
-     no part. Without --channel the first channel is taken, and named.";
+     upwards from which the count stays above 85 % of itself up to 1.4 times the value; it is often the default. \
+     Without such a value the command says why. With a truth \
+     column the table also shows what is missed and what is flagged falsely. Decisions are ignored. \
+     Without --channel, the first channel is used, and its name printed.";
 
 /// What `sweep` goes along.
 #[derive(Debug, Clone, Args)]
@@ -90,7 +90,7 @@ pub(super) const COMPARE: &str = "\
      channel take part with --rate.\n\n\
      With --votes K a sample is an outlier when at least K of the methods flag it; -o, --flags and \
      --diagnostics write that consensus, repaired by --repair.\n\n\
-     Without --channel the first channel is taken, and named.";
+     Without --channel, the first channel is used, and its name printed.";
 
 /// What `compare` puts side by side.
 #[derive(Debug, Clone, Args)]
@@ -106,7 +106,7 @@ pub struct CompareArgs {
     /// A sample is an outlier when at least this many methods flag it.
     #[arg(long, value_name = "K")]
     pub votes: Option<usize>,
-    /// What takes the place of an outlier of the consensus: linear, remove, spline, polynomial [default: linear].
+    /// Replacement of an outlier of the consensus: linear, remove, spline, polynomial [default: linear].
     #[arg(long, value_name = "ID", requires = "votes")]
     pub repair: Option<String>,
     /// Longest run of outliers that is repaired (0: no limit).
@@ -123,21 +123,21 @@ pub struct CompareArgs {
 /// The help of `stream`.
 pub(super) const STREAM: &str = "\
      Judge samples from standard input as they arrive.\n\n\
-     One line goes out for every sample line that comes in, at once: row, time, value, verdict, expected value \
+     One line is written for every sample line that comes in, at once: row, time, value, verdict, expected value \
      and tolerance. Methods: five-point, alpha-beta-gamma, adaptive, template, kalman (without infill), \
-     two-sided (forward only). What needs the future or the whole record is off: look_back, the pooled noise \
-     floor, the second direction, the fill of runs; `sigma`, the noise scale, must be a number (the \
+     two-sided (forward only). Anything that needs later samples or the whole record is off: look_back, the \
+     pooled noise floor, the second direction, the fill of runs; `sigma`, the noise scale, must be a number (the \
      precision of the instrument; `wildpoint inspect` measures it on a record), except for template; `floor` \
      is 0 unless it is a number.\n\n\
      A sample that waits for a model to start is `unchecked` at first. When a start group is complete, and \
-     when a run of more than max_run outliers makes the model start again (told on standard error), what was \
-     said of samples before is said again in lines with `correction` in the last column (JSON: \"correction\": \
+     when a run of more than max_run outliers makes the model start again (told on standard error), earlier \
+     verdicts are written again in lines with `correction` in the last column (JSON: \"correction\": \
      true). The last line about a row is what the method says of it when it runs over the whole record with \
      these settings and this interval.\n\n\
-     Lines that cannot be read come out with the verdict `unreadable`, those without a value, and those whose \
-     time does not lie after the one before, with `missing`; both are counted on standard error. Blank lines \
-     and comments (# % //) are passed over. Without --interval the nominal interval is the median of the first \
-     9 steps; without --time three rows are looked at to find the time column. Output waits until then. Without --channel the first column of numbers is judged, and named on standard error.";
+     Lines that cannot be read get the verdict `unreadable`, those without a value, and those whose \
+     time does not lie after the one before, `missing`; both are counted on standard error. Blank lines \
+     and comments (# % //) are skipped. Without --interval the nominal interval is the median of the first \
+     9 steps; without --time the first three rows are used to find the time column. Output waits until then. Without --channel, the first column of numbers is judged, and its name printed on standard error.";
 
 /// How `stream` reads and judges.
 #[derive(Debug, Clone, Args)]
@@ -154,7 +154,7 @@ pub struct StreamArgs {
     /// A parameter of the method; repeatable (see `wildpoint methods ID`).
     #[arg(long, value_name = "KEY=VALUE", value_parser = pair)]
     pub set: Vec<(String, String)>,
-    /// Start anew where more than this many samples are lost in a row.
+    /// Start again after a gap of more than this many lost samples.
     #[arg(long, value_name = "N|off")]
     pub max_gap: Option<String>,
     /// Nominal interval between samples in seconds [default: the median of the first 9 steps].

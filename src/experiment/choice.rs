@@ -84,7 +84,7 @@ pub static CHOICES: &[Choice] = &[
         record: "much data without a trend",
         real_time: false,
         method: "wright",
-        document: "[001] simple, good on isolated ones in much data",
+        document: "[001] simple, good for isolated outliers in much data",
         measured: &[of(OFFLINE, &["wright"], 2, 100.0, ("isolated", " %"))],
     },
     Choice {
@@ -105,7 +105,7 @@ pub static CHOICES: &[Choice] = &[
         record: "4 to 20 samples, or blocks of them",
         real_time: false,
         method: "romanovsky",
-        document: "[001] good on both, needs mean and deviation anew for each sample",
+        document: "[001] good for both, needs mean and deviation anew for each sample",
         measured: &[
             of(OFFLINE, &["romanovsky"], 2, 100.0, ("isolated", " %")),
             of(OFFLINE, &["romanovsky"], 3, 100.0, ("patch", " %")),
@@ -133,7 +133,7 @@ pub static CHOICES: &[Choice] = &[
         record: "much data, few isolated ones",
         real_time: false,
         method: "odd-even",
-        document: "[001] for runs and varying ones, with false alarms",
+        document: "[001] for runs and varying outliers, with false alarms",
         measured: &[
             of(OFFLINE, &["odd-even"], 3, 89.0, ("patch", " %")),
             of(OFFLINE, &["odd-even"], 4, 50.0, ("varying", " %")),
@@ -145,7 +145,7 @@ pub static CHOICES: &[Choice] = &[
         record: "even sampling, windows of 10 to 50",
         real_time: false,
         method: "median-window",
-        document: "[003] small errors throughout, good on both kinds",
+        document: "[003] small errors throughout, good for both kinds",
         measured: &[
             of("qin", &["50", "median-window"], 6, 227.0, ("window 50:", " of 238 found")),
             of("qin", &["50", "poly-window"], 6, 223.0, ("poly-window", "")),
@@ -181,7 +181,7 @@ pub static CHOICES: &[Choice] = &[
         record: "five samples lie on a line",
         real_time: true,
         method: "five-point",
-        document: "[001] the best for isolated ones, at the least cost",
+        document: "[001] the best for isolated outliers, at the least cost",
         measured: &[
             of(REALTIME, &["five-point (ours)"], 2, 98.0, ("isolated", " %")),
             of(REALTIME, &["five-point (ours)"], 6, 1.6, ("false", " of 176")),
@@ -193,7 +193,7 @@ pub static CHOICES: &[Choice] = &[
         record: "noise that changes",
         real_time: true,
         method: "adaptive",
-        document: "[001] the best on runs and where all kinds mix",
+        document: "[001] the best for runs and where all kinds mix",
         measured: &[
             of(REALTIME, &["adaptive (ours)"], 1, 43.0, ("found", " %")),
             of(REALTIME, &["alpha-beta-gamma (ours)"], 1, 75.0, ("alpha-beta-gamma", " %")),
@@ -206,7 +206,7 @@ pub static CHOICES: &[Choice] = &[
         record: "accelerating tracks",
         real_time: true,
         method: "alpha-beta-gamma",
-        document: "[001] the best on varying ones",
+        document: "[001] the best for varying outliers",
         measured: &[
             of(REALTIME, &["alpha-beta-gamma (ours)"], 4, 53.0, ("varying", " %")),
             of(REALTIME, &["five-point (ours)"], 4, 33.0, ("five-point", " %")),

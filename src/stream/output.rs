@@ -14,8 +14,8 @@ use crate::track::{escape_formula, number_text};
 /// The columns, in order.
 pub const STREAM_COLUMNS: [Column; 7] = [
     column("row", "number of the line of data, from 1"),
-    column("time", "time, as it came in"),
-    column("value", "value, as it came in"),
+    column("time", "time, as read"),
+    column("value", "value, as read"),
     column("verdict", "`normal`, `outlier`, `suspect`, `unchecked`, `missing` or `unreadable`"),
     column("expected", "value that the method expects"),
     column("tolerance", "distance from the expected value at which a sample is flagged"),

@@ -71,7 +71,7 @@ impl Around<'_> {
 /// Every repair, in the order in which lists show them.
 pub static REPAIRS: &[Repair] = &[
     Repair { id: "own", help: "the method's own, as its document prescribes", way: Way::Own },
-    Repair { id: "remove", help: "leave the cell empty", way: Way::Remove },
+    Repair { id: "remove", help: "an empty cell", way: Way::Remove },
     Repair {
         id: "linear",
         help: "the line between the accepted samples on both sides",

@@ -60,8 +60,13 @@ pub static SETTINGS: [Setting; 6] = [
     setting("color", "auto, never, 16, 256, true", "auto", "the number of colours"),
     setting("mouse", "true, false", "true", "whether the program uses the mouse"),
     setting("auto_advance", "true, false", "true", "whether a decision goes to the next flag"),
-    setting("esc_timeout_ms", "1 to 2000", "30", "wait after Esc for the rest of a key; more on a slow connection"),
-    setting("fps", "1 to 120", "30", "frames a second at most; fewer on a slow connection"),
+    setting(
+        "esc_timeout_ms",
+        "1 to 2000",
+        "30",
+        "wait after Esc for the rest of a key; raise it for a slow connection",
+    ),
+    setting("fps", "1 to 120", "30", "frames a second at most; lower it for a slow connection"),
 ];
 
 const GLYPHS: [(&str, Option<Glyphs>); 4] = [

@@ -64,7 +64,7 @@ pub static ROLES: &[Role] = &[
     Role { name: "gap", about: "columns with lost samples (background)", of: |t| &mut t.gap, ground: true },
     fore("threshold", "the threshold", |t| &mut t.threshold),
     fore("over", "residuals beyond the threshold", |t| &mut t.over),
-    fore("viewport", "in the overview, the part that the trace shows", |t| &mut t.viewport),
+    fore("viewport", "the part of the overview that the trace shows", |t| &mut t.viewport),
     fore("ok", "messages: done", |t| &mut t.ok),
     fore("warning", "messages: caution", |t| &mut t.warning),
     fore("error", "messages: error", |t| &mut t.error),

@@ -12,11 +12,11 @@ pub static FORMS: &[(&str, &str)] = &[
     ("+5s  -2m  +1h", "a duration forwards or backwards"),
     ("+100  -20", "a number of samples forwards or backwards"),
     ("y>8  y<=-2.5", "the next sample by its value"),
-    ("z>8", "the next by the size of its residual (panel 2)"),
-    ("step>2", "the next by the size of the step to it"),
-    ("state:suspect", "or unreviewed accepted rejected byhand conflict"),
-    ("verdict:unchecked", "or outlier suspect normal: what the method says"),
-    ("note:staging", "the next note with these words; a bare word too"),
+    ("z>8", "the next sample whose residual exceeds this (panel 2)"),
+    ("step>2", "the next sample whose step exceeds this"),
+    ("state:suspect", "or unreviewed, accepted, rejected, byhand, conflict"),
+    ("verdict:unchecked", "or outlier, suspect, normal: what the method says"),
+    ("note:staging", "the next note with these words; a plain word also works"),
 ];
 
 /// Jumps; nothing typed repeats the jump before.

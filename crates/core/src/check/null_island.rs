@@ -15,7 +15,7 @@ const APART: &str = "apart";
 
 static PARAMS: &[Param] = &[Param {
     key: APART,
-    help: "a position of 0, 0 counts only where the record as a whole lies farther than this from there",
+    help: "a position of 0, 0 counts only where the record as a whole is farther than this from 0, 0",
     unit: "channel units",
     kind: Kind::Real { min: 0.0, max: 1e9, step: Step::Add(0.1) },
     default: Value::Real(0.5),

@@ -66,7 +66,7 @@ static PARAMS: &[Param] = &[
 
 static ABOUT: About = About {
     id: "position",
-    help: "positions that cannot be reached at the largest possible speed, over the real distance",
+    help: "positions that cannot be reached at the largest possible speed, by great-circle or straight distance",
     params: PARAMS,
     own: Own::Line,
     channels: Some((2, 3)),

@@ -19,7 +19,7 @@ static PARAMS: &[Param] = &[
 
 static ABOUT: About = About {
     id: "rate",
-    help: "samples that cannot be reached from those around them at the largest possible change per second",
+    help: "samples that cannot be reached from neighbouring samples at the largest possible change per second",
     params: PARAMS,
     own: Own::Line,
     channels: None,

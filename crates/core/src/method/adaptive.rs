@@ -53,8 +53,8 @@ const HUBER_C: Param = Param {
 
 const UPDATE: Param = Param {
     key: "update",
-    help: "winsor: residuals beyond c sigma count as c sigma; printed: eq. (34), biased low, it freezes (1.5 to 2 % \
-           false alarms on clean noise)",
+    help: "winsor: residuals beyond c sigma count as c sigma; printed: eq. (34), biased low, it can stop changing (1.5 \
+           to 2 % false alarms on clean noise)",
     unit: "",
     kind: Kind::Choice(&["winsor", "printed"]),
     default: Value::Word("winsor"),
@@ -68,9 +68,9 @@ static ABOUT: About = About {
     family: "real-time predictor",
     source: "[001] section 3, eqs. (27)-(34)",
     advice: "Noise that changes along the track, in real time: the limit follows the latest residuals. [001] finds it \
-             most effective on runs and best where isolated, constant and varying outliers mix; on its own \
-             experiment as we simulate it that holds only as printed, with no limit to a run and most good samples \
-             flagged. Wants window good samples before the scale is its own. \
+             most effective on runs and best where isolated, constant and varying outliers mix; in our simulation \
+             of its experiment this holds only without a run limit, as printed, and then most good samples are \
+             flagged. Needs window good samples before it measures its own scale. \
              A run of outliers raises the scale it is judged by, so the end of a long one is missed.",
     params: PARAMS,
     own: Own::Expected,

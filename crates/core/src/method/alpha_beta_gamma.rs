@@ -44,8 +44,8 @@ static ABOUT: About = About {
     family: "real-time predictor",
     source: "[001] section 3, eqs. (23)-(26)",
     advice: "Accelerating tracks in real time: it predicts a parabola, so it needs slower sampling than five-point. \
-             [001] finds it best of the real-time methods on outliers that vary from sample to sample. Wants about a \
-             dozen good samples until its memory has grown. Outliers below k / sqrt(1 - alpha) sigma are missed, and \
+             [001] finds it best of the real-time methods on outliers that vary from sample to sample. Needs about a \
+             dozen good samples before its gains are steady. Outliers below k / sqrt(1 - alpha) sigma are missed, and \
              a manoeuvre faster than the gains follow is flagged.",
     params: PARAMS,
     own: Own::Expected,

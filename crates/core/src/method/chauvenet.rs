@@ -24,7 +24,7 @@ static ABOUT: About = About {
     name: "Chauvenet",
     family: shared::WHOLE_SEGMENT,
     source: "[001] s.2",
-    advice: "Flags whatever a normal sample of this size would hold less than half a time: k grows with the number of samples, from 1.96 for 10 to 3.48 for 1000. Cheap, for much data with few runs of outliers and no wild points that vary with time. On clean data it flags about one sample in every second block.",
+    advice: "Flags every value of which fewer than half a sample is expected in normal data of this size: k grows with the number of samples, from 1.96 for 10 to 3.48 for 1000. Cheap, for much data with few runs of outliers and no wild points that vary with time. On clean data it flags about one sample in every second block.",
     params: &PARAMS,
     own: Own::Remove,
     needs_rate: false,

@@ -17,7 +17,7 @@ pub struct DiffMedian;
 
 const MODE: Param = Param {
     key: "mode",
-    help: "switching: replace only differences farther than k * sigma from their median, and take the drift out; plain: \
+    help: "switching: replace only differences farther than k * sigma from their median, and remove the drift; plain: \
            replace all [001], which drifts on noisy data",
     unit: "",
     kind: Kind::Choice(&["switching", "plain"]),

@@ -30,7 +30,7 @@ static ABOUT: About = About {
     family: "real-time predictor",
     source: "[001] section 3, eqs. (20)-(22)",
     advice: "Isolated outliers in real time, at the least cost: [001] calls it the best choice for them and better \
-             than alpha-beta-gamma. Wants five good samples to start and sampling fast enough that five of them lie \
+             than alpha-beta-gamma. Needs five good samples to start and sampling fast enough that five of them lie \
              on a line to within the noise. A run shorter than max_run is found as long as the track stays \
              straight over it; outliers below about 4 sigma that vary from sample to sample are missed.",
     params: PARAMS,

@@ -40,7 +40,7 @@ static ABOUT: About = About {
     source: "beyond (Rosner 1983)",
     advice: "Takes out the most deviant samples up to max_fraction of all and flags those up to the last that exceeds \
              its critical value, so that many wild points cannot mask each other as they do in grubbs. alpha is the \
-             chance of one false alarm in a whole block. Wants 25 samples and a trend that follows the data; of wild \
+             chance of one false alarm in a whole block. Needs 25 samples and a trend that follows the data; of wild \
              points that vary with time it misses those inside the noise.",
     params: &PARAMS,
     own: Own::Remove,

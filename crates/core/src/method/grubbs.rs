@@ -40,7 +40,7 @@ static ABOUT: About = About {
     name: "Grubbs",
     family: shared::WHOLE_SEGMENT,
     source: "[001] s.2",
-    advice: "Takes out the most deviant sample, again and again, as long as it exceeds the largest that clean data of this size would show. alpha is the chance of one false alarm in a whole block (sides = one: on either side). For 20 to 100 samples with few wild points ([001] calls it the best of its criteria): many of them mask each other, and it then finds hardly any; use gesd.",
+    advice: "Removes the most deviant sample repeatedly, until it is no larger than clean data of this size would show. alpha is the chance of one false alarm in a whole block (sides = one: on either side). For 20 to 100 samples with few wild points ([001] calls it the best of its criteria); if there are many, they mask each other and it finds hardly any: use gesd.",
     params: &PARAMS,
     own: Own::Remove,
     needs_rate: false,

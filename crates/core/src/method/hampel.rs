@@ -26,8 +26,8 @@ static ABOUT: About = About {
     name: "Hampel identifier",
     family: shared::SLIDING_WINDOW,
     source: "beyond (Hampel 1974); the sliding median of [003]",
-    advice: "Compares each sample with the median of its window; nothing that it flags changes what it says of others, \
-             so k can be turned without a new computation. Robust against isolated wild points up to nearly half of a \
+    advice: "Compares each sample with the median of its window; a flag does not affect other samples, so changing k \
+             needs no new computation. Robust against isolated wild points up to nearly half of a \
              window. A window of 21 does not see runs of more than about a third of it: lengthen the window for \
              long runs, shorten it for rapid manoeuvres.",
     params: &PARAMS,

@@ -43,7 +43,7 @@ const C: Param = shared::C.with_matters(|s| !joint(s));
 
 const MODEL: Param = Param {
     key: "model",
-    help: "what moves on undisturbed: ca, the acceleration; cv, the velocity",
+    help: "what stays constant: ca, the acceleration; cv, the velocity",
     unit: "",
     kind: Kind::Choice(&["ca", "cv"]),
     default: Value::Word("ca"),
@@ -64,7 +64,7 @@ const TRACKING_INDEX: Param = Param {
 
 const TEST: Param = Param {
     key: "test",
-    help: "component: each channel by itself; joint: all channels of a sample together, by chi square",
+    help: "component: each channel separately; joint: all channels of a sample together, by chi square",
     unit: "",
     kind: Kind::Choice(&["component", "joint"]),
     default: Value::Word("component"),
@@ -84,8 +84,8 @@ const ALPHA: Param = Param {
 
 const GATE_CAP: Param = Param {
     key: "gate_cap",
-    help: "while outliers follow each other the gate opens to at most this many times its width at the first (off: \
-           no limit)",
+    help: "while outliers follow each other the gate opens to at most this many times its width at the first \
+           outlier (off: no limit)",
     unit: "",
     kind: Kind::RealOr { words: &["off"], min: 1.0, max: 1000.0 },
     default: Value::Real(2.0),
@@ -125,9 +125,9 @@ static ABOUT: About = About {
     family: "state estimation",
     source: "[004] steps 1-3, eqs. (1-1)-(1-6)",
     advice: "Manoeuvring tracks with isolated outliers and runs, one channel or several that fail together (test = \
-             joint): [004] reports that both kinds are removed and that the fill keeps the filter on the track through a run. Wants \
+             joint): [004] reports that both kinds are removed and that the fill keeps the filter on the track through a run. Needs \
              four good samples to start and a dozen on each side of a run. Outliers below c deviations are missed, \
-             and runs longer than the filter can coast over (about 8) are lost whole in a fifth of the cases.",
+             and runs too long to predict across (about 8) are missed entirely in a fifth of the cases.",
     params: PARAMS,
     own: Own::Expected,
     needs_rate: false,

@@ -35,7 +35,7 @@ const K: Param = shared::K.with_default(Value::Real(3.0));
 
 const WINDOW: Param = Param {
     key: "window",
-    help: "neighbours carried to each sample; runs up to about window/2 - 4 are seen",
+    help: "neighbours projected to each sample; runs up to about window/2 - 4 are seen",
     unit: "samples",
     kind: Kind::Whole { min: 4, max: 1001, step: 2 },
     default: Value::Whole(401),
@@ -58,9 +58,9 @@ static ABOUT: About = About {
     name: "matched measurements",
     family: "real-time predictor",
     source: "[001] section 3, eqs. (35)-(41)",
-    advice: "A channel with a second one that measures its rate, as range with Doppler: it separates what the \
-             measurement did wrong from what the target did, so manoeuvres are never flagged. [001] finds it next to \
-             adaptive, with the fewest false alarms, at a higher cost. Wants a clean rate over the whole segment; \
+    advice: "A channel with a second one that measures its rate, as range with Doppler: it tells errors of \
+             measurement from motion of the target, so manoeuvres are never flagged. [001] finds it next to \
+             adaptive, with the fewest false alarms, at a higher cost. Needs a clean rate over the whole segment; \
              misses runs of more than about window/2 - 4 samples, and errors that both channels share.",
     params: PARAMS,
     own: Own::Expected,

@@ -27,7 +27,7 @@ static ABOUT: About = About {
     name: "sliding median",
     family: shared::SLIDING_WINDOW,
     source: "[003] eq. (1), sliding median",
-    advice: "Compares each sample with the median of its window and replaces a flagged one before the window moves on. Of the four methods of [003] it has small errors throughout (the smallest in its table 1 at windows of 10 to 100; the mean at 7 and 8) and copes with isolated wild points and runs; 10 or 20 samples are usual there. A window of 21 does not see runs of more than about a third of it.",
+    advice: "Compares each sample with the median of its window and replaces a flagged one before the window moves on. Of the four methods of [003] it has small errors (in its table 1 the smallest at windows of 10 to 100; at 7 and 8 the mean's are smaller) and copes with isolated wild points and runs; 10 or 20 samples are usual there. A window of 21 does not see runs of more than about a third of it.",
     params: &PARAMS,
     own: Own::Expected,
     needs_rate: false,

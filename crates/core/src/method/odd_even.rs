@@ -12,7 +12,7 @@ pub struct OddEven;
 
 const SPLITS: Param = Param {
     key: "m",
-    help: "splits: the samples of a block form 2^m groups, each sample in another than its neighbours",
+    help: "splits: the samples of a block form 2^m groups; neighbours are in different groups",
     unit: "",
     kind: Kind::Whole { min: 1, max: 8, step: 1 },
     default: Value::Whole(2),
@@ -37,9 +37,9 @@ static ABOUT: About = About {
     name: "odd-even extraction",
     family: shared::WHOLE_SEGMENT,
     source: "[001] s.2",
-    advice: "Deals the samples out to 2^m groups, so that a run becomes a few isolated wild points in each, and \
+    advice: "Splits the samples into 2^m groups, so that a run becomes a few isolated wild points in each, and \
              judges each group by Wright's criterion. For much data with runs and wild points that vary with time, \
-             few of them isolated; it gives false alarms. Wants some 20 samples in every group at k = 3.",
+             few of them isolated; it gives false alarms. Needs some 20 samples in every group at k = 3.",
     params: &PARAMS,
     own: Own::Remove,
     needs_rate: false,

@@ -43,7 +43,7 @@ static ABOUT: About = About {
     source: "[003] s.2, polynomial",
     advice: "Fits a polynomial to each window and tests every sample of it. Follows manoeuvres better than a mean or a \
              median; second to the sliding median of [003] on isolated wild points and on runs. At order 2 and \
-             k = 3 it wants 12 samples in a window to flag anything and about 21 in noise. A run that fills a third \
+             k = 3 it needs 12 samples in a window to flag anything and about 21 in noise. A run that fills a third \
              of the window bends the polynomial and is missed.",
     params: &PARAMS,
     own: Own::Expected,

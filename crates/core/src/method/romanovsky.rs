@@ -25,7 +25,7 @@ static ABOUT: About = About {
     name: "Romanovsky (t test)",
     family: shared::WHOLE_SEGMENT,
     source: "[001] s.2",
-    advice: "Takes out the most deviant sample, again and again, as long as Student's t says that it does not belong to the others. For few data without wild points that vary with time ([001]: 4 to 20); alpha is the chance of a false alarm for each sample, so long records lose about 1.6 alpha of their good ones.",
+    advice: "Removes the most deviant sample repeatedly, until Student's t accepts it. For few data without wild points that vary with time ([001]: 4 to 20); alpha is the chance of a false alarm for each sample, so long records lose about 1.6 alpha of their good ones.",
     params: &PARAMS,
     own: Own::Remove,
     needs_rate: false,

@@ -27,7 +27,7 @@ pub const MAX_GAP: Param = Param {
 /// Lower bound on any scale.
 pub const FLOOR: Param = Param {
     key: "floor",
-    help: "lower bound on any scale; record: where the residuals of this record stop being noise (calibration), for each \
+    help: "lower bound on any scale; record: where the residuals of this record exceed the noise (calibration), for each \
            sample; auto: half the smallest step or third difference of the data other than 0",
     unit: "channel units",
     kind: Kind::RealOr { words: &[RECORD, "auto"], min: 0.0, max: 1e300 },
@@ -45,8 +45,8 @@ pub const RECORD: &str = "record";
 /// Where suspects begin.
 pub const DOUBT: Param = Param {
     key: "doubt",
-    help: "with floor = record: suspect from this share of the tolerance on (of less where the noise has heavy tails), \
-           where both sides object; 1: only what the method itself doubts",
+    help: "with floor = record: a sample that reaches this share of the tolerance is suspect (a smaller share if the \
+           noise has heavy tails), where both sides object; 1: only what the method itself doubts",
     unit: "",
     kind: Kind::Real { min: 0.1, max: 1.0, step: Step::Add(0.05) },
     default: Value::Real(0.6),
@@ -57,7 +57,7 @@ pub const DOUBT: Param = Param {
 /// How the noise scale is found.
 pub const SIGMA: Param = Param {
     key: "sigma",
-    help: "noise scale: auto or difference (robust; correlated noise hides from it: AR(1) 0.3/0.6/0.9 gives \
+    help: "noise scale: auto or difference (robust; underestimates correlated noise: AR(1) 0.3/0.6/0.9 gives \
            0.77/0.54/0.25 of the deviation), spline (eq. (2) of [000]; outliers inflate it), or a number",
     unit: "channel units",
     kind: Kind::RealOr { words: &["auto", "difference", "spline"], min: f64::MIN_POSITIVE, max: 1e300 },
@@ -136,7 +136,7 @@ pub const EDGE: Param = Param {
 /// Whether the local slope is taken off first.
 pub const DETREND: Param = Param {
     key: "detrend",
-    help: "slope: take a local-slope baseline off first, so that the scale measures noise and not the track's slope",
+    help: "slope: subtract a local-slope baseline first, so that the scale measures noise and not the track's slope",
     unit: "",
     kind: Kind::Choice(&["slope", "off"]),
     default: Value::Word("slope"),
@@ -164,7 +164,7 @@ pub const NOISE_FLOOR: Param = Param {
 /// Order of the trend that whole-segment criteria take off.
 pub const TREND_ORDER: Param = Param {
     key: "trend_order",
-    help: "order of the least-squares trend that is taken off first (0: only the mean)",
+    help: "order of the least-squares trend that is subtracted first (0: only the mean)",
     unit: "",
     kind: Kind::Whole { min: 0, max: 8, step: 1 },
     default: Value::Whole(2),
@@ -237,7 +237,7 @@ fn refit_matters(settings: &Settings) -> bool {
 /// How many outliers in a row a predictor stands; sections give it their own default.
 pub const MAX_RUN: Param = Param {
     key: "max_run",
-    help: "more outliers in a row than this lose the model: it starts again at the first of them (0: never)",
+    help: "more outliers in a row than this end the model: it starts again at the first of them (0: never)",
     unit: "samples",
     kind: Kind::Whole { min: 0, max: 1000, step: 1 },
     default: Value::Whole(12),

@@ -25,7 +25,7 @@ static ABOUT: About = About {
     name: "least-squares trend and Wright",
     family: shared::WHOLE_SEGMENT,
     source: "[002]",
-    advice: "Takes a least-squares polynomial off and flags whatever lies k standard deviations from it, pass after pass. For stretches of a track that a polynomial of low order follows; on longer ones set block, or the deviation measures the misfit. Finds isolated wild points and short runs in much data; wants 20 samples in a block at k = 3.",
+    advice: "Subtracts a least-squares polynomial and flags every sample k or more standard deviations from it, pass after pass. For stretches of a track that a polynomial of low order follows; on longer ones set block, or the deviation measures the misfit. Finds isolated wild points and short runs in much data; needs 20 samples in a block at k = 3.",
     params: &PARAMS,
     own: Own::Remove,
     needs_rate: false,

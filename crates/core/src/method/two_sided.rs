@@ -74,7 +74,7 @@ const ORDER: Param = Param {
 
 const VARIABLE_ORDER: Param = Param {
     key: "variable_order",
-    help: "lower orders compete too: a sample is normal when any candidate agrees",
+    help: "lower orders are tried too: a sample is normal when any candidate agrees",
     unit: "",
     kind: Kind::Switch,
     default: Value::Switch(true),
@@ -115,7 +115,7 @@ const POINTS_3: Param = Param {
 
 const TWO_POINT: Param = Param {
     key: "two_point",
-    help: "the line through the last two competes too (prediction error 2.45 sigma: it mainly lets outliers in)",
+    help: "the line through the last two is tried too (prediction error 2.45 sigma: it mainly lets outliers in)",
     unit: "",
     kind: Kind::Switch,
     default: Value::Switch(false),
@@ -157,7 +157,7 @@ const MAX_RUN: Param = shared::MAX_RUN.with_default(Value::Whole(10)).with_paper
 
 const DIRECTION: Param = Param {
     key: "direction",
-    help: "which way the test runs; an outlier of both is abnormal in both",
+    help: "which way the test runs; with both, an outlier is abnormal from both",
     unit: "",
     kind: Kind::Choice(&["both", "forward", "backward"]),
     default: Value::Word("both"),
@@ -167,8 +167,8 @@ const DIRECTION: Param = Param {
 
 const REPAIR_RULE: Param = Param {
     key: "repair_rule",
-    help: "own repair: best (the candidate that fits both sides best), or matched (only when both directions came \
-           back by the same candidate; otherwise removed)",
+    help: "own repair: best (the candidate that fits both sides best), or matched (only when both directions \
+           resume with the same candidate; otherwise removed)",
     unit: "",
     kind: Kind::Choice(&["best", "matched"]),
     default: Value::Word("best"),
@@ -186,9 +186,9 @@ static ABOUT: About = About {
     source: "[000] section 2, eqs. (1)-(5)",
     advice: "Recorded tracks with isolated outliers and runs up to max_run samples, lost samples and steps: a step \
              or manoeuvre is suspect, not removed. In [000] it beats either direction alone at every order, and \
-             variable order beats any fixed one. Wants start + a few samples on each side; a run longer than \
+             variable order beats any fixed one. Needs start + a few samples on each side; a run longer than \
              max_run is taken for a real change (a restart is listed), and so is a run at the end of a segment \
-             that only one direction reaches as an outlier.",
+             that is abnormal from only one direction.",
     params: PARAMS,
     own: Own::Remove,
     needs_rate: false,

@@ -25,7 +25,7 @@ static ABOUT: About = About {
     name: "Wright (PauTa) 3-sigma criterion",
     family: shared::WHOLE_SEGMENT,
     source: "[001] s.2, [002]",
-    advice: "Flags whatever lies k standard deviations from the mean. Simple and fast, for much data that has no trend of its own (residuals, rates): on a track it measures the track. Among fewer than 11 samples it cannot flag anything at k = 3. It misses wild points that vary with time and a run large enough to inflate the standard deviation.",
+    advice: "Flags every sample k or more standard deviations from the mean. Simple and fast, for much data that has no trend of its own (residuals, rates): on a track the deviation reflects the motion, not the noise. Among fewer than 11 samples it cannot flag anything at k = 3. It misses wild points that vary with time and a run large enough to inflate the standard deviation.",
     params: &PARAMS,
     own: Own::Remove,
     needs_rate: false,

@@ -13,9 +13,9 @@ use crate::track::{Track, escape_formula};
 /// The columns, in order.
 pub const DECISION_COLUMNS: [Column; 8] = [
     ROW,
-    column("time", "time of the row, as the program knows it"),
+    column("time", "time of the row, as loaded"),
     CHANNEL,
-    column("raw", "measured value, as the program knows it"),
+    column("raw", "measured value, as loaded"),
     column("verdict", "`outlier` (accepted) or `normal` (rejected)"),
     column("note", "note of the analyst"),
     column("by", "name of the analyst; empty where the session does not have it"),

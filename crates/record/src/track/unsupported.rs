@@ -61,7 +61,7 @@ const BINARIES: [Binary; 20] = [
     Binary {
         at: 0,
         begins: b"\xd0\xcf\x11\xe0",
-        name: "a spreadsheet of old Excel (xls)",
+        name: "an old Excel spreadsheet (xls)",
         help: "export the sheet as CSV: soffice --convert-to csv FILE",
         read: false,
     },
@@ -75,13 +75,13 @@ const BINARIES: [Binary; 20] = [
     Binary {
         at: 0,
         begins: b"\x89HDF\r\n\x1a\n",
-        name: "an HDF5 file (NetCDF-4 is such a file, too)",
+        name: "an HDF5 file (NetCDF-4 is also such a file)",
         help: "a build with --features hdf5 reads it; or write the variables as CSV: h5dump -d /NAME FILE, or ncdump -v NAME FILE",
         read: ARRAYS,
     },
     Binary { at: 0, begins: b"CDF\x01", name: "a NetCDF file", help: NETCDF_HELP, read: ARRAYS },
-    Binary { at: 0, begins: b"CDF\x02", name: "a NetCDF file (offsets of 64 bits)", help: NETCDF_HELP, read: ARRAYS },
-    Binary { at: 0, begins: b"CDF\x05", name: "a NetCDF file (sizes of 64 bits)", help: NETCDF_HELP, read: ARRAYS },
+    Binary { at: 0, begins: b"CDF\x02", name: "a NetCDF file (64-bit offsets)", help: NETCDF_HELP, read: ARRAYS },
+    Binary { at: 0, begins: b"CDF\x05", name: "a NetCDF file (64-bit sizes)", help: NETCDF_HELP, read: ARRAYS },
     Binary {
         at: 0,
         begins: b"MATLAB 7.3 MAT",
@@ -114,7 +114,7 @@ const BINARIES: [Binary; 20] = [
         at: 0,
         begins: b"\x89MCAP0\r\n",
         name: "an MCAP recording",
-        help: "write a topic as CSV with the tools of its makers: mcap cat --topics TOPIC --json FILE",
+        help: "write a topic as CSV with the mcap tool: mcap cat --topics TOPIC --json FILE",
         read: false,
     },
     Binary {
@@ -127,7 +127,7 @@ const BINARIES: [Binary; 20] = [
     Binary {
         at: 0,
         begins: b"SQLite format 3\0",
-        name: "an SQLite database (ROS 2 bags are such files, too)",
+        name: "an SQLite database (ROS 2 bags are also such files)",
         help: "write a table as CSV: sqlite3 -header -csv FILE 'select * from TABLE' > OUT.csv",
         read: false,
     },
@@ -141,7 +141,7 @@ const BINARIES: [Binary; 20] = [
     Binary {
         at: 0,
         begins: b"MDF     ",
-        name: "an MDF file of measurements (mf4)",
+        name: "an MDF measurement file (mf4)",
         help: "write it as CSV, in Python: asammdf.MDF('FILE').export('csv')",
         read: false,
     },
@@ -164,7 +164,7 @@ const BINARIES: [Binary; 20] = [
         at: 0,
         begins: b"%PDF-",
         name: "a PDF document",
-        help: "export the record as CSV from where it was printed",
+        help: "export the record as CSV from the program that printed it",
         read: false,
     },
     Binary {

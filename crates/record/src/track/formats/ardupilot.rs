@@ -11,7 +11,7 @@ pub(super) const FORMAT: Format = Format {
     name: "ArduPilot log (text)",
     about: "flight logs of ArduPilot as text, a table for each kind of message",
     known_by: "lines `FMT, 128,` or other `FMT` messages at the start",
-    maps: "a table for each message (`--table`), else that with the most rows; names from `FMT`, units from `FMTU` and \
+    maps: "a table for each message (`--table`), by default the one with the most rows; names from `FMT`, units from `FMTU` and \
            `UNIT`; time `TimeUS` or `TimeMS`; a track for each instance (`I`); states are not channels",
     known: |text| {
         let mut first = text.lines().filter(|l| !l.trim().is_empty()).take(10);

@@ -7,7 +7,7 @@ pub(super) const FORMAT: Format = Format {
     name: "FLUXNET",
     about: "fluxes and weather of eddy covariance stations (FLUXNET, AmeriFlux, ICOS)",
     known_by: "the names begin with `TIMESTAMP_START` or `TIMESTAMP`, with `_F` or `_QC` among them",
-    maps: "time `TIMESTAMP_START` (or `TIMESTAMP`); units by agreement; columns `_QC`, `_TEST` and `NIGHT` are not \
+    maps: "time `TIMESTAMP_START` (or `TIMESTAMP`); units by convention; columns `_QC`, `_TEST` and `NIGHT` are not \
            channels; -9999 means missing",
     known: |text| header(text).is_some(),
     complete,

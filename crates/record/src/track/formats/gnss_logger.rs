@@ -15,7 +15,7 @@ pub(super) const FORMAT: Format = Format {
     name: "Android GNSS log",
     about: "measurements, positions and sensors of phones, as GnssLogger and GPSTest write them",
     known_by: "comments `# Raw,` or `# Fix,Provider` with the names of a kind of rows",
-    maps: "a table for each kind of rows (`--table`), else that with the most; time of `Raw` in GPS time, from `TimeNanos` and \
+    maps: "a table for each kind of rows (`--table`), by default the one with the most rows; time of `Raw` in GPS time, from `TimeNanos` and \
            the biases of the clock, of other kinds the time since 1970, or since the phone was started where that is finer; a \
            track for each satellite and signal, or for each provider; units from the names; states are not channels",
     known: |text| {

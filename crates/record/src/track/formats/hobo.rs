@@ -7,7 +7,7 @@ pub(super) const FORMAT: Format = Format {
     name: "HOBO",
     about: "exports of Onset loggers, as HOBOware writes them",
     known_by: "`Plot Title` in the first line, `LGR S/N` or `Date Time, GMT` in the names",
-    maps: "units from the names (`Temp, °F (LGR S/N: …)`); `#` and what the logger notes beside the samples (`Logged`) \
+    maps: "units from the names (`Temp, °F (LGR S/N: …)`); `#` and the logger's event columns (`Logged`) \
            are not channels; clocks are those of the zone in the header",
     known: |text| {
         let mut lines = text.lines().take(4);

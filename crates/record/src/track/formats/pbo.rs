@@ -7,7 +7,7 @@ pub(super) const FORMAT: Format = Format {
     name: "PBO",
     about: "daily positions of GNSS stations of the Plate Boundary Observatory (CSV and .pos)",
     known_by: "`PBO Station` or `Station Time Series` in the first lines, or `4-character ID` above the names",
-    maps: "time `Date`, or `YYYYMMDD` and `HHMMSS`; units from the names, or by agreement; the quality is not a channel",
+    maps: "time `Date`, or `YYYYMMDD` and `HHMMSS`; units from the names, or by convention; the quality is not a channel",
     known: |text| {
         let head = text.lines().take(12).any(|l| {
             l.starts_with("PBO Station") || l.starts_with("4-character ID") || l.starts_with("Station Time Series")

@@ -7,7 +7,7 @@ pub(super) const FORMAT: Format = Format {
     name: "USGS RDB",
     about: "tables of the National Water Information System",
     known_by: "a line of names that begins with `agency_cd` and tabs",
-    maps: "time `datetime`, in the zone that `tz_cd` tells in each row; units from the list of parameters in the comments; \
+    maps: "time `datetime`, in the zone given by `tz_cd` in each row; units from the list of parameters in the comments; \
            columns `_cd` are not channels; remarks like `Ice` and `Eqp` mean missing",
     known: |text| header(text).is_some(),
     complete,

@@ -9,7 +9,7 @@ pub(super) const FORMAT: Format = Format {
     name: "Mission Planner telemetry (text)",
     about: "telemetry logs (tlog) that Mission Planner converted to text or CSV",
     known_by: "lines with a time and a name `mavlink_…_t`",
-    maps: "a table for each message (`--table`), else that with the most rows; time at the start of the line; a track for \
+    maps: "a table for each message (`--table`), by default the one with the most rows; time at the start of the line; a track for \
            each system, where there are several; types and times of boot are not channels",
     known: |text| {
         let first: Vec<&str> = text.lines().filter(|l| !l.trim().is_empty()).take(20).collect();

@@ -7,7 +7,7 @@ pub(super) const FORMAT: Format = Format {
     name: "TOA5",
     about: "tables of Campbell Scientific data loggers",
     known_by: "`TOA5` (or `TOACI1`) in the first cell",
-    maps: "time `TIMESTAMP`; names, units and the way of averaging in lines 2 to 4; `NAN` means missing",
+    maps: "time `TIMESTAMP`; names, units and the kind of processing in lines 2 to 4; `NAN` means missing",
     known: |text| kind(text).is_some(),
     complete,
     label: |_, name| match name {
