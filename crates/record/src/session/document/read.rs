@@ -16,6 +16,7 @@ use crate::memory::Share;
 use crate::param::{Kind, Numbers, Param, Settings, Value, find};
 use crate::repair;
 use crate::review::{Decision, Decisions, Ruling};
+use crate::session::archive::Archive;
 use crate::session::digest::{Digest, WrittenDigest};
 use crate::session::{Data, Plan, Preparation, Recorded, Session, Setup, folder_of, is_period, method_of_id, tidied};
 use crate::track::{DASH, LoadOptions, Pattern, Rules, Source, Worded};
@@ -51,9 +52,9 @@ pub(in crate::session) struct WrittenDecision {
     pub(in crate::session) time: String,
     /// The text of the value cell.
     pub(in crate::session) value: String,
-    verdict: String,
+    pub(in crate::session) verdict: String,
     #[serde(default)]
-    note: String,
+    pub(in crate::session) note: String,
     /// The line of the session file it stands on.
     #[serde(skip)]
     pub(in crate::session) line: Option<usize>,
@@ -70,6 +71,7 @@ struct Document {
     channel: Vec<Spanned<WrittenChannel>>,
     result: Option<WrittenResult>,
     digest: Option<WrittenDigest>,
+    archive: Option<Archive>,
 }
 
 #[derive(Deserialize)]
@@ -161,6 +163,8 @@ pub(in crate::session) struct Read {
     pub(in crate::session) rows_line: Option<usize>,
     /// What was changed in the file since it was saved, in words; none where the file does not tell.
     pub(in crate::session) altered: Option<Vec<String>>,
+    /// What came out on an archive.
+    pub(in crate::session) archive: Option<Archive>,
 }
 
 /// Reads a session file. The record itself is not opened.
@@ -280,7 +284,7 @@ fn parse_with_texts(path: &Path, text: &str) -> Result<Read> {
         clean_sha256: r.clean_sha256,
         flags_sha256: r.flags_sha256,
     });
-    Ok(Read { session: Session { data, plans, result }, texts, rows_line, altered })
+    Ok(Read { session: Session { data, plans, result }, texts, rows_line, altered, archive: document.archive })
 }
 
 struct Reader<'a> {
