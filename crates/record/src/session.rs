@@ -7,6 +7,7 @@ use crate::review::Decisions;
 use crate::track::{LoadOptions, Lost, Source, Track};
 
 mod analysis;
+pub mod archive;
 mod changed;
 mod cleaned;
 mod command_line;

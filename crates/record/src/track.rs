@@ -26,6 +26,7 @@ mod facts;
 mod feed;
 mod formats;
 mod head;
+mod in_memory;
 mod keywords;
 mod lines;
 mod load;
@@ -69,6 +70,7 @@ pub use columnar::{CopyForm, FlagForm, copy_form, names_arrays, names_columns, w
 pub use csv_injection::escape_formula;
 pub use extent::Extent;
 pub use formats::{FORMATS, Format, format_of};
+pub use in_memory::{ChannelValues, NO_MOMENT, moment_of, number_of, unit_in_name};
 pub use keywords::{TimeUnit, Worded};
 pub use lines::{FileLine, LinePart, first_lines};
 pub use load::{load, load_extent, load_while};

@@ -113,7 +113,7 @@ pub fn open_all(path: &Path, wanted: Wanted<'_>) -> Result<Opened> {
 }
 
 fn open_with(path: &Path, accepted: Accepted, only_planned: bool, wanted: Wanted<'_>) -> Result<Opened> {
-    let Read { mut session, texts, rows_line, altered } = read_with_texts(path)?;
+    let Read { mut session, texts, rows_line, altered, archive: _ } = read_with_texts(path)?;
     let mut channels: Vec<String> = Vec::new();
     if only_planned {
         channels.extend(session.plans.iter().map(|p| p.channel.clone()));

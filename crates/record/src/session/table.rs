@@ -5,7 +5,7 @@ use std::io::Write;
 use super::{Analysed, Outcome, Place, Session};
 use crate::error::{Error, Result};
 use crate::method::{Filtered, Verdict};
-use crate::track::{Cells, Channel, Series, Track, escape_formula, for_each_row};
+use crate::track::{Cells, Channel, Samples, Series, Track, escape_formula, for_each_row};
 
 /// A column of a table: its name in the first line, and what its cells say.
 #[derive(Debug, Clone, Copy)]
@@ -111,6 +111,25 @@ impl Walk<'_> {
     }
 }
 
+/// The channels of a result, before their first row.
+pub(super) fn walks<'a>(track: &'a Track, session: &'a Session, analysed: &'a Analysed) -> Vec<Walk<'a>> {
+    let walk = |(plan, (index, samples, outcome)): (usize, &'a (usize, Samples, Outcome))| {
+        let channel = &track.channels[*index];
+        Walk {
+            series: samples.series(channel, &track.time),
+            name: &session.plans[plan].channel,
+            outcome,
+            plan,
+            filtered: analysed.filtered_of(plan),
+            track,
+            channel,
+            next: 0,
+            own: channel.target.as_ref().map(|t| &*t.rows),
+        }
+    };
+    analysed.channels.iter().enumerate().map(walk).collect()
+}
+
 /// Calls `visit` with every row and channel of a result (of several tracks, with each row its own channels), in the order
 /// of the file and of the session.
 ///
@@ -122,21 +141,7 @@ pub fn walk(
     analysed: &Analysed,
     mut visit: impl FnMut(usize, &Cells<'_>, &mut Walk<'_>) -> Result<()>,
 ) -> Result<()> {
-    let mut channels: Vec<Walk<'_>> = Vec::new();
-    for (plan, (index, samples, outcome)) in analysed.channels.iter().enumerate() {
-        let channel = &track.channels[*index];
-        channels.push(Walk {
-            series: samples.series(channel, &track.time),
-            name: &session.plans[plan].channel,
-            outcome,
-            plan,
-            filtered: analysed.filtered_of(plan),
-            track,
-            channel,
-            next: 0,
-            own: channel.target.as_ref().map(|t| &*t.rows),
-        });
-    }
+    let mut channels = walks(track, session, analysed);
     for_each_row(track, |row, cells| {
         channels.iter_mut().filter_map(|c| c.owns(row).then_some(c)).try_for_each(|channel| visit(row, cells, channel))
     })

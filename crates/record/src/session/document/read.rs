@@ -17,6 +17,7 @@ use crate::memory::Share;
 use crate::param::{Kind, Numbers, Param, Settings, Value, Words, find};
 use crate::repair;
 use crate::review::{Decision, Decisions, Ruling, Signature};
+use crate::session::archive::Archive;
 use crate::session::digest::{Digest, WrittenDigest};
 use crate::session::signature::at_of_text;
 use crate::session::{Data, Plan, Preparation, Recorded, Session, Setup, folder_of, is_period, method_of_id, tidied};
@@ -53,9 +54,9 @@ pub(in crate::session) struct WrittenDecision {
     pub(in crate::session) time: String,
     /// The text of the value cell.
     pub(in crate::session) value: String,
-    verdict: String,
+    pub(in crate::session) verdict: String,
     #[serde(default)]
-    note: String,
+    pub(in crate::session) note: String,
     /// The name of who decided.
     #[serde(default)]
     by: Option<String>,
@@ -65,6 +66,13 @@ pub(in crate::session) struct WrittenDecision {
     /// The line of the session file it stands on.
     #[serde(skip)]
     pub(in crate::session) line: Option<usize>,
+}
+
+impl WrittenDecision {
+    /// By whom and when it was decided; a moment that cannot be read is not known.
+    pub(in crate::session) fn signature(&self) -> Signature {
+        Signature { by: self.by.as_deref().map(Into::into), at: self.at.as_deref().and_then(at_of_text) }
+    }
 }
 
 #[derive(Deserialize)]
@@ -79,6 +87,7 @@ struct Document {
     channel: Vec<Spanned<WrittenChannel>>,
     result: Option<WrittenResult>,
     digest: Option<WrittenDigest>,
+    archive: Option<Archive>,
 }
 
 #[derive(Deserialize)]
@@ -172,6 +181,8 @@ pub(in crate::session) struct Read {
     pub(in crate::session) rows_line: Option<usize>,
     /// What was changed in the file since it was saved, in words; none where the file does not tell.
     pub(in crate::session) altered: Option<Vec<String>>,
+    /// What came out on an archive.
+    pub(in crate::session) archive: Option<Archive>,
 }
 
 /// Reads a session file. The record itself is not opened.
@@ -292,7 +303,8 @@ fn parse_with_texts(path: &Path, text: &str) -> Result<Read> {
         clean_sha256: r.clean_sha256,
         flags_sha256: r.flags_sha256,
     });
-    Ok(Read { session: Session { data, plans, value, result }, texts, rows_line, altered })
+    let session = Session { data, plans, value, result };
+    Ok(Read { session, texts, rows_line, altered, archive: document.archive })
 }
 
 struct Reader<'a> {
@@ -399,12 +411,11 @@ impl Reader<'_> {
             if decisions.get(row).is_some() {
                 return Err(fault(self.path, line, format!("row {}: decided twice", d.row), "keep one decision"));
             }
-            let at = d.at.as_deref().map(|text| {
-                at_of_text(text).ok_or_else(|| {
-                    fault(self.path, line, format!("at = {text:?}"), "write a moment such as \"2026-12-01T02:15:00Z\"")
-                })
-            });
-            let signature = Signature { by: d.by.as_deref().map(Into::into), at: at.transpose()? };
+            let signature = d.signature();
+            if let (Some(text), None) = (&d.at, signature.at) {
+                let help = "write a moment such as \"2026-12-01T02:15:00Z\"";
+                return Err(fault(self.path, line, format!("at = {text:?}"), help));
+            }
             decisions.set(row, Some(Decision { ruling, note: d.note.clone(), said: None, signature }));
             written.push(d);
         }
