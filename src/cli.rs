@@ -10,6 +10,7 @@ use crate::repair;
 use crate::session::{DEFAULT_METHOD, Preset, Setup, method_of_id};
 
 mod advise;
+mod archive;
 mod experiments;
 mod load;
 mod outputs;
@@ -19,6 +20,7 @@ mod screen;
 mod tools;
 
 pub use advise::AdviseArgs;
+pub use archive::ArchiveArgs;
 pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
 pub use load::{DateOrder, Load};
 pub use outputs::OutputArgs;
@@ -158,6 +160,9 @@ pub enum Command {
         /// Threads to use; all cores by default.
         #[arg(long, value_name = "N")]
         threads: Option<usize>,
+        /// An archive to apply the session to.
+        #[command(flatten)]
+        archive: ArchiveArgs,
     },
     /// Count outliers along a parameter, and suggest a threshold.
     #[command(long_about = tools::SWEEP, mut_arg("channel", one_channel))]
