@@ -12,6 +12,7 @@ use crate::session::{Accepted, Appended};
 use crate::track::{Channel, Source, Track, load, printable_json, printable_lines};
 
 mod advise;
+mod archive;
 mod candidates;
 mod clean;
 mod compare;
@@ -54,8 +55,11 @@ pub fn run(command: Command, out: &mut dyn Write) -> Result<Ending> {
             let asked = clean::Asked { shared: &shared, suggested: suggest, value: output_value };
             clean::run(&files, &asked, &outputs, save_session.as_deref(), out)
         }
-        Command::Replay { sessions, check, accept_changed_data, accept_appended, outputs, threads } => {
+        Command::Replay { sessions, check, accept_changed_data, accept_appended, outputs, threads, archive } => {
             set_threads(threads)?;
+            if let Some(folder) = &archive.archive {
+                return archive::run(&sessions, (folder, &archive, check), &outputs, out);
+            }
             let appended = if accept_appended { Appended::TakenIn } else { Appended::Refused };
             let accepted = Accepted { changed: accept_changed_data, appended };
             if check {

@@ -10,6 +10,7 @@ use crate::repair;
 use crate::session::{DEFAULT_METHOD, OutputValue, Preset, Setup, method_of_id};
 
 mod advise;
+mod archive;
 mod candidates;
 mod experiments;
 mod load;
@@ -20,6 +21,7 @@ mod screen;
 mod tools;
 
 pub use advise::AdviseArgs;
+pub use archive::ArchiveArgs;
 pub use candidates::CandidateArgs;
 pub use experiments::{InjectArgs, ReproduceArgs, SimulateArgs};
 use load::worded;
@@ -166,6 +168,9 @@ pub enum Command {
         /// Threads to use; all cores by default.
         #[arg(long, value_name = "N")]
         threads: Option<usize>,
+        /// An archive to apply the session to.
+        #[command(flatten)]
+        archive: ArchiveArgs,
     },
     /// Count outliers along a parameter, and suggest a threshold.
     #[command(long_about = tools::SWEEP, mut_arg("channel", one_channel))]

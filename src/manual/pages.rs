@@ -42,6 +42,7 @@ pub static PAGES: &[Page] = &[
     page!(HOW_TO, "campaign", "how-to/campaign.md"),
     page!(HOW_TO, "ssh", "how-to/ssh.md"),
     page!(HOW_TO, "batch", "how-to/batch.md"),
+    page!(HOW_TO, "archives", "archive.md"),
     page!(HOW_TO, "real-time", "how-to/real-time.md"),
     page!(HOW_TO, "python", "how-to/python.md"),
     page!(REFERENCE, "key-map", "reference/keys.md"),
