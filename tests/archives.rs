@@ -53,7 +53,7 @@ fn the_digest_of_an_archive_is_printed_recorded_and_checked() {
     assert_eq!(folder.done("replay s.toml --archive parts --check --threads 1"), "s.toml: same result\n");
     assert_eq!(folder.done("replay s.toml --check"), "s.toml: same result\n", "the record is another matter");
     let part = folder.text("parts/1.csv");
-    std::fs::write(folder.path("parts/1.csv"), part.replacen("a,100.0,", "a,100.25,", 1)).unwrap();
+    std::fs::write(folder.path("parts/1.csv"), part.replacen("a,101.0,", "a,101.25,", 1)).unwrap();
     let differs = folder.run("replay s.toml --archive parts --check --json");
     assert_eq!(differs.status, 1);
     assert!(differs.out.contains("the digest of the archive is"), "{}", differs.out);
@@ -77,7 +77,7 @@ fn what_cannot_be_applied_to_an_archive_is_refused() {
     assert!(refused("replay s.toml s.toml --archive parts").contains("2 sessions for one archive"));
     assert!(refused("replay s.toml --record").contains("--archive"));
     assert!(refused("replay s.toml --archive parts -o clean.csv").contains("cannot be used with"));
-    let changed = folder.text("s.toml").replace("k = 4.0", "k = 4.5");
+    let changed = folder.text("s.toml").replace("k = 3.0", "k = 3.5");
     std::fs::write(folder.path("s.toml"), &changed).unwrap();
     let said = refused(&format!("{REPLAY} --record"));
     assert!(said.contains("k of vx_mps was changed since the session was saved"), "{said}");

@@ -11,7 +11,7 @@ const CRATES: &[&str] = &["crates/core/src", "crates/record/src", "src"];
 /// The layers, lowest first; modules of one line may know each other.
 const LAYERS: &[&[&str]] = &[
     &["memory"],
-    &["error", "wrapped", "counted"],
+    &["error", "wrapped", "counted", "clock"],
     &["math"],
     &["interval"],
     &["series"],

@@ -145,7 +145,12 @@ fn what_is_saved_and_exported_can_be_replayed() {
     folder.done("replay reviewed.toml -o replayed.csv");
     assert!(folder.text("replayed.csv") == folder.text("reviewed.csv"));
     let session = folder.text("reviewed.toml");
-    assert!(session.contains("{ row = 91, time = \"91.0\", value = \"55.21\", verdict = \"outlier\" }"), "{session}");
+    assert!(
+        session.contains(
+            "{ row = 91, time = \"91.0\", value = \"55.21\", verdict = \"outlier\", at = \"2026-01-01T00:00:00Z\" }"
+        ),
+        "{session}"
+    );
     assert!(session.contains("{ row = 200, ") && session.matches("verdict = ").count() == 2, "{session}");
     assert_eq!(folder.names(), ["demo.csv", "replayed.csv", "reviewed.csv", "reviewed.toml"]);
 }

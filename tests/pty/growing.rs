@@ -132,10 +132,13 @@ fn decisions_outlive_the_record() {
     let row = |number: &str| demo.lines().nth(number.parse().unwrap()).unwrap().split(',').nth(1).unwrap().to_owned();
     let table = folder.text("d.csv");
     let lines: Vec<&str> = table.lines().collect();
-    assert_eq!(lines[0], "row,time,channel,raw,verdict,note");
+    assert_eq!(lines[0], "row,time,channel,raw,verdict,note,by,at");
     assert_eq!(
         lines[1..],
-        [format!("61,61,vx_mps,{},outlier,", row("61")), format!("91,91,vx_mps,{},normal,", row("91"))]
+        [
+            format!("61,61,vx_mps,{},outlier,,,2026-01-01T00:00:00Z", row("61")),
+            format!("91,91,vx_mps,{},normal,,,2026-01-01T00:00:00Z", row("91"))
+        ]
     );
     assert_eq!(line(&folder.text("s.toml"), "record_was"), "record_was = \"deleted\"");
 

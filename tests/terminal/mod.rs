@@ -69,6 +69,8 @@ impl Terminal {
         command.env("XDG_STATE_HOME", state.path());
         // Nor does the configuration of whoever runs tests change them.
         command.env("XDG_CONFIG_HOME", state.path());
+        // Nor does the moment at which decisions are made.
+        command.env("SOURCE_DATE_EPOCH", "1767225600");
         for (name, value) in [("TERM", "xterm-256color"), ("LANG", "C.UTF-8")].iter().chain(environment) {
             command.env(name, value);
         }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use serde::Serialize;
 
 use crate::math::pieces;
+use crate::method::consensus::verdict_of;
 use crate::method::{Method, Verdict};
 use crate::setup::{Preset, Setup};
 use crate::stop::{Stop, Stopped};
@@ -168,21 +169,6 @@ impl Ballot {
     pub fn verdicts(&self, votes: usize) -> Vec<Verdict> {
         let counts = self.flagged.iter().zip(&self.suspected).zip(&self.checked);
         counts.map(|((f, s), c)| verdict_of([*f, *s, *c].map(usize::from), votes)).collect()
-    }
-}
-
-/// The verdict on a sample that so many methods flag, suspect and can judge, when `votes` of them must agree: suspect
-/// where so many flag or suspect it, unchecked where so few can judge it that they cannot agree.
-#[must_use]
-pub fn verdict_of([flagged, suspected, checked]: [usize; 3], votes: usize) -> Verdict {
-    if flagged >= votes {
-        Verdict::Outlier
-    } else if flagged + suspected >= votes {
-        Verdict::Suspect
-    } else if checked < votes {
-        Verdict::Unchecked
-    } else {
-        Verdict::Normal
     }
 }
 

@@ -48,7 +48,8 @@ mod tests {
 
     #[test]
     fn every_method_has_its_document() {
-        for about in METHODS.iter().map(|m| m.about()) {
+        // The consensus is of no document.
+        for about in METHODS.iter().map(|m| m.about()).filter(|about| about.id != "consensus") {
             let found: Vec<_> = numbered(about.source).chain(named(about.id)).collect();
             assert!(!found.is_empty(), "{}: {}", about.id, about.source);
             assert!(found.iter().all(|(_, document)| document.len() > 40), "{found:?}");

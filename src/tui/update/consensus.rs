@@ -76,16 +76,13 @@ fn in_words(model: &Model, consensus: &Consensus) -> String {
     let (ballot, agreed) = (&consensus.ballot, consensus.agreed.len());
     let half = ballot.half();
     let agreed = counted(agreed, "sample");
-    let mut text = format!(
-        "{} methods; {half} or more flag {agreed} · {} next of them · {} takes them",
-        ballot.methods(),
-        model.key(Action::NextAgreed),
-        model.key(Action::AdoptConsensus)
-    );
+    let mut text = format!("{} methods; {half} or more flag {agreed}", ballot.methods());
     if !consensus.left_out.is_empty() {
         let left_out: Vec<String> = consensus.left_out.iter().map(|(id, why)| format!("{id} ({why})")).collect();
         text.push_str(&format!(" · left out: {}", left_out.join(", ")));
     }
+    let (next, adopt) = (model.key(Action::NextAgreed), model.key(Action::AdoptConsensus));
+    text.push_str(&format!(" · {next} next of them · {adopt} takes them"));
     text
 }
 

@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use super::noise::by_noise;
 use super::shared::{DOUBT, FLOOR, MAX_GAP, SIGMA, multiplier};
 use super::{About, Judged, METHODS, Method, Own, Segment, Verdict, judge_segment};
-use crate::ballot::verdict_of;
 use crate::math::order::median_of_many;
 use crate::math::pieces;
 use crate::param::{Kind, Param, Settings, Value, Words, always};
@@ -268,10 +267,24 @@ impl Poll {
     }
 }
 
+/// The verdict on a sample that so many methods flag, suspect and can judge, when `votes` of them must agree: suspect
+/// where so many flag or suspect it, unchecked where so few can judge it that they cannot agree.
+#[must_use]
+pub fn verdict_of([flagged, suspected, checked]: [usize; 3], votes: usize) -> Verdict {
+    if flagged >= votes {
+        Verdict::Outlier
+    } else if flagged + suspected >= votes {
+        Verdict::Suspect
+    } else if checked < votes {
+        Verdict::Unchecked
+    } else {
+        Verdict::Normal
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ballot::Ballot;
     use crate::math::random::Random;
     use crate::method::{find, judge_channel, voting};
     use crate::series::Series;
@@ -310,19 +323,31 @@ mod tests {
         for (step, floor) in [(0.0, "record"), (5.0, "record"), (0.0, "auto"), (0.0, "2.5")] {
             let (t, y) = record(step);
             let series = Series::new(&t, &y);
-            let mut ballot = Ballot::new(y.len());
+            let mut all = Vec::new();
             for id in VOTERS {
                 let method = find(id).unwrap();
                 let mut own = Settings::defaults(method.about().params);
                 own.set_text(id, "floor", floor).unwrap();
                 let judged = judge_channel(method, &series, None, &own, &never).unwrap();
-                ballot.add(id, &judged.verdict, &never).unwrap();
+                all.push(judged.verdict);
             }
             for votes in [1, 5, 9, 18] {
                 let votes_text = votes.to_string();
                 let settings = settings(&[("votes", &votes_text), ("floor", floor)]);
                 let judged = judge_channel(&Consensus, &series, None, &settings, &never).unwrap();
-                assert!(judged.verdict == ballot.verdicts(votes), "{votes} votes, step {step}, floor {floor}");
+                let count = |i: usize, wanted: &[Verdict]| all.iter().filter(|v| wanted.contains(&v[i])).count();
+                for (i, verdict) in judged.verdict.iter().enumerate() {
+                    let flagged = count(i, &[Verdict::Outlier]);
+                    let doubted = count(i, &[Verdict::Outlier, Verdict::Suspect]);
+                    let checked = count(i, &[Verdict::Outlier, Verdict::Suspect, Verdict::Normal]);
+                    let expected = match (flagged >= votes, doubted >= votes, checked >= votes) {
+                        (true, _, _) => Verdict::Outlier,
+                        (_, true, _) => Verdict::Suspect,
+                        (_, _, false) => Verdict::Unchecked,
+                        _ => Verdict::Normal,
+                    };
+                    assert_eq!(*verdict, expected, "{i}, {votes} votes, step {step}, floor {floor}");
+                }
                 assert!(judged.verdict.contains(&Verdict::Outlier) || floor == "2.5" || votes == 18, "{votes} {floor}");
             }
         }

@@ -191,7 +191,14 @@ fn exact(moments: Vec<i64>, clock: bool, lasts: &mut Lasts<'_, LastExact>) -> Or
         && last.checked_sub(first).is_some_and(|span| span <= DISTINCT)
         && increasing(&moments)
     {
-        let seconds = moments.into_iter().map(|moment| since(moment, first)).collect();
+        let mut wanted = true;
+        let place = |(row, moment): (usize, i64)| {
+            if row.is_multiple_of(STRIDE) {
+                wanted = lasts.wanted.still();
+            }
+            if wanted { since(moment, first) } else { f64::NAN }
+        };
+        let seconds = moments.into_iter().enumerate().map(place).collect();
         return Ordered { origin_ns: i128::from(first), seconds, ..Ordered::default() };
     }
     let mut ordered = Ordered::default();

@@ -103,7 +103,7 @@ fn a_trend_goes_through_what_is_left_and_a_mean_is_no_model_of_a_track() {
         method.filter(&Settings::defaults(method.about().params)).is_some()
     };
     let without: Vec<&str> = METHODS.iter().map(|m| m.about().id).filter(|id| !with(id)).collect();
-    assert_eq!(without, ["wright", "matched"]);
+    assert_eq!(without, ["wright", "matched", "consensus"]);
 }
 
 /// A hole of the own repair is bridged by the line between its neighbours, and filled from the nearest at an end.
