@@ -126,10 +126,13 @@ fn the_card_tells_the_residual_before_and_after_the_repair() {
     }
     let bench = smoothed(Bench::on("demo.csv", ASCII_MONO).size((120, 40)));
     assert!(card(&bench).contains(" -> "));
-    // Under other settings the result is another, of which nothing is known yet.
+    // Under other settings the result is another: what was known of the one before is marked as old until more is.
     let mut bench = bench.keys(".");
     bench.judge(0);
-    assert!(Smoothed::of(&bench.0).is_none() && !card(&bench).contains("residual "));
+    assert!(Smoothed::of(&bench.0).is_none());
+    assert!(card(&bench).contains("residual ") && card(&bench).contains('~'), "{}", card(&bench));
+    let told = card(&smoothed(bench));
+    assert!(told.contains("residual ") && !told.contains('~'), "{told}");
 }
 
 #[test]

@@ -8,6 +8,7 @@ use ratatui::widgets::Widget;
 use super::super::action::{Action, Panel};
 use super::super::model::{Model, Unit};
 use super::super::plot::{FlagState, Glyphs};
+use super::super::smoothing::Smoothed;
 use super::super::update::mark_at;
 use super::queue::ratio_text;
 use super::{NOT_JUDGED, clear, compare, fit, heading, several_days, short};
@@ -99,9 +100,11 @@ fn heading_words(model: &Model, mark: Option<&Mark>) -> Vec<Span<'static>> {
     if let Some(words) = why(model) {
         spans.push(Span::styled(format!("{}  ", fit(&words, NOTE)), theme.dim));
     }
-    // That of the result before stays until the new one has come: numbers that go and come again are sent twice.
+    // That of the result before stays, marked as old, until the new one has come: numbers that go and come again are
+    // sent twice.
     if let Some(residual) = model.state().smoothed.as_ref().and_then(|smoothed| smoothed.residual) {
-        spans.push(Span::styled(format!("{}  ", residual_words(model, &residual)), theme.dim));
+        let old = if Smoothed::of(model).is_some() { ' ' } else { '…' };
+        spans.push(Span::styled(format!("{}{old} ", residual_words(model, &residual)), theme.dim));
     }
     if model.review.unit == Unit::Run {
         spans.push(Span::styled("run by run  ", theme.title));
