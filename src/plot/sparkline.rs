@@ -33,7 +33,7 @@ impl Extremes {
     }
 
     fn middle(self) -> Option<f64> {
-        (self.low <= self.high).then(|| 0.5 * self.low + 0.5 * self.high)
+        (self.low <= self.high).then_some(0.5 * self.low + 0.5 * self.high)
     }
 }
 

@@ -3,6 +3,8 @@
 //!
 //! `cargo test --release -p wildpoint-core --test simulated_records -- --ignored --nocapture`
 
+#![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
+
 use rayon::prelude::*;
 use wildpoint_core::analysis::{Detection, Input};
 use wildpoint_core::detectability::Study;
