@@ -28,7 +28,7 @@ pub struct ArchiveArgs {
     /// rows of a track may be spread over several files, in any order.
     #[arg(long, value_name = "DIR", conflicts_with_all = NOT_OF_ARCHIVES)]
     pub archive: Option<PathBuf>,
-    /// Write the result into the session, under [archive].
+    /// Write the result into the session, under `[archive]`.
     #[arg(long, requires = "archive", conflicts_with = "check")]
     pub record: bool,
     /// Column that tells the tracks of the archive apart [default: that of the session; without one each file is a track].
