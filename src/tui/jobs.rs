@@ -102,7 +102,7 @@ impl Judge {
         Self { steps, ..self }
     }
 
-    /// The same with samples of its own, which go when it is done; those of a channel that was shown stay.
+    /// The same job with its own samples, which are freed at its end; a channel that was shown keeps its samples.
     #[must_use]
     pub fn apart(self) -> Self {
         let samples = if self.previous.is_some() { self.samples } else { Arc::new(Samples::later()) };

@@ -251,7 +251,7 @@ pub enum Effect {
     Study(usize, Subject),
     /// Judge the channels of these plans for the overview, the first first.
     Survey(Vec<usize>),
-    /// Nobody looks at the overview any more.
+    /// Abandon judging for the overview: it was closed.
     CancelSurvey,
     /// Abandon measuring it.
     CancelStudy,

@@ -122,7 +122,7 @@ pub fn survey(results: Sender<Message>) -> Worker<Survey> {
             let summary = summary.map(Arc::new);
             let _ = results.send(Message::Surveyed { generation, plan, summary });
         };
-        // Who is no longer waited for says nothing.
+        // A job that was replaced reports nothing.
         let _ = job.run(stop, tell);
     })
 }

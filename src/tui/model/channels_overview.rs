@@ -151,6 +151,9 @@ impl ChannelsOverview {
         let words: Vec<String> = self.filter.value().split_whitespace().map(str::to_lowercase).collect();
         let name = |plan: usize| printable(&model.session.plans[plan].channel);
         let fits = |plan: &usize| {
+            if words.is_empty() {
+                return true;
+            }
             let name = name(*plan).to_lowercase();
             words.iter().all(|word| name.contains(word.as_str()))
         };
@@ -161,7 +164,7 @@ impl ChannelsOverview {
             SortColumn::Name => rows.sort_by_cached_key(|plan| name(*plan).to_lowercase()),
             column => rows.sort_by(|a, b| match (summary(*a), summary(*b)) {
                 (Some(a), Some(b)) => column.order(a, b),
-                // What is not known stands below.
+                // Channels without a summary come last.
                 (a, b) => b.is_some().cmp(&a.is_some()),
             }),
         }

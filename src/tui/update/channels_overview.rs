@@ -29,7 +29,9 @@ pub(in crate::tui) fn open(model: &mut Model) -> Vec<Effect> {
 /// Puts it on the screen again, and has the channels judged whose summaries do not hold, those in sight first.
 fn put(model: &mut Model, overview: ChannelsOverview) -> Vec<Effect> {
     let mut wanted: Vec<usize> = overview.rows(model);
-    wanted.extend((0..model.channels.len()).filter(|plan| !wanted.contains(plan)).collect::<Vec<_>>());
+    let mut hidden = vec![true; model.channels.len()];
+    wanted.iter().for_each(|plan| hidden[*plan] = false);
+    wanted.extend((0..hidden.len()).filter(|plan| hidden[*plan]));
     wanted.retain(|plan| model.channels[*plan].summary_stale);
     // The rows in sight are those around the cursor.
     let at = wanted.iter().position(|plan| *plan == overview.plan).unwrap_or(0);
@@ -40,7 +42,7 @@ fn put(model: &mut Model, overview: ChannelsOverview) -> Vec<Effect> {
 
 /// A channel has been judged for the overview.
 pub(super) fn surveyed(model: &mut Model, generation: u64, plan: usize, summary: Result<Arc<ChannelSummary>>) {
-    // A job that another has taken the place of was about the session as it was.
+    // The answer to an earlier job may be about a session that has changed since.
     if model.surveying == Some(generation) {
         let state = &mut model.channels[plan];
         state.summary = Some(summary.map_err(|e| on_one_line(&e)));

@@ -103,7 +103,7 @@ pub(super) fn change(model: &Model, position: usize, ruling: Option<Ruling>) -> 
     changed(row, before, after)
 }
 
-/// The change of a decision; none where the new one says what the old one said. Whoever decided first keeps it.
+/// The change of a decision; none where both say the same: the first signature stays.
 pub(super) fn changed(row: u32, before: Option<Decision>, after: Option<Decision>) -> Option<Change> {
     let same = match (&before, &after) {
         (Some(before), Some(after)) => before.says_the_same(after) && before.said == after.said,

@@ -42,9 +42,12 @@ const SAMPLES: usize = 10;
 const MARKS: usize = 4;
 const COUNT: usize = 8;
 const STATE: usize = 13;
+/// Rows that set the widths: a record may have tens of thousands, and every frame measures these.
+const MEASURED: usize = 500;
 
 impl Widths {
     fn of(model: &Model, rows: &[usize], width: usize) -> Self {
+        let rows = &rows[..rows.len().min(MEASURED)];
         let longest =
             |of: &dyn Fn(usize) -> usize, most: usize| rows.iter().map(|p| of(*p)).max().unwrap_or(0).min(most);
         let unit = |plan: usize| printable(&channel(model, plan).unit).width();

@@ -186,8 +186,8 @@ fn curves(kinds: &[Kind], found: &[Found], limit: f64) -> Vec<Curve> {
     kinds.iter().map(of_kind).collect()
 }
 
-/// What the methods together say of the record as it is. A method has as much weight as it finds of what was put in: one
-/// that finds nothing says nothing by not flagging either.
+/// The weighted vote of all methods on the untouched record. The weight of a method is its recall of the added points: the
+/// silence of a method that finds none of them means nothing.
 struct Majority {
     /// For each sample the weight of the methods that flag it.
     votes: Vec<f64>,

@@ -139,7 +139,7 @@ impl Track {
     }
 }
 
-/// Numbers that no text holds.
+/// The layout of columns that were not read from a text.
 fn plain() -> Dialect {
     Dialect {
         delimiter: Delimiter::Byte(b','),

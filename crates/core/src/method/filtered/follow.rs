@@ -107,7 +107,7 @@ impl<P> Sink<P> for Unheard {
     fn lost(&mut self, _: Range<usize>) {}
 }
 
-/// A filter that is told what to take in.
+/// A filter that is updated with the samples it is given, and judges none.
 struct Follower<E> {
     filter: E,
     estimate: [f64; 2],

@@ -51,7 +51,7 @@ fn entries(settled: &Settled<'_>, settings: &Settings) -> Vec<Entry> {
     entries
 }
 
-/// A filter that takes in what it is told to.
+/// A filter that is updated with the samples it is given, and judges none.
 struct Following {
     tuning: Tuning,
     filter: Filter,

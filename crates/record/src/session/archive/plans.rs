@@ -154,7 +154,7 @@ impl Template {
         let shared = all.iter().find(|at| about(at).track.is_none());
         let chosen = match (own.or(shared), all.first()) {
             (Some(at), _) => *at,
-            // Plans of other tracks that all say the same.
+            // The plans of other tracks are all the same.
             (None, Some(first)) if all.iter().all(|at| self.same(*first, *at)) => *first,
             _ => return Err(self.without_plan(column, rows)),
         };
