@@ -87,8 +87,8 @@ impl Filter {
         Self { level: first.1, x: [x(0), x(1), x(2)], p: [p(0, 0), p(0, 1), p(0, 2), p(1, 1), p(1, 2), p(2, 2)] }
     }
 
-    // By hand, over the six numbers of a symmetric matrix: the same steps in nalgebra (F P F' + Q, P - K H P) gave other
-    // bits in 28 % of a million estimates, and took 2 to 23 % longer.
+    // By hand, over the six numbers of a symmetric matrix: the same steps in nalgebra (F P F' + Q, P - K H P) round
+    // otherwise, which would change the results of saved sessions.
 
     /// Predicts `dt` seconds ahead, in `steps` equal steps with process noise of their own.
     #[inline]
