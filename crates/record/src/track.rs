@@ -61,6 +61,7 @@ mod tokens;
 mod unsupported;
 mod view;
 mod wanted;
+mod windows_1252;
 
 pub use add_columns::{NewColumn, rewrite_beside, widen};
 pub use calendar::{DAY as NANOSECONDS_PER_DAY, SECONDS_PER_DAY};

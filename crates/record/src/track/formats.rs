@@ -3,12 +3,10 @@
 //! A format is one row of [`FORMATS`]. Of a delimited table it completes what the user told; a text of records of several
 //! kinds it makes a table of, with [`Format::sheet`].
 
-use encoding_rs::WINDOWS_1252;
-
 use super::columnar::with_layout;
 use super::facts::{ColumnFacts, Facts};
 use super::view::{Field, Sheet, View, Want};
-use super::{Aside, Delimiter, LoadOptions, Rules, Zero};
+use super::{Aside, Delimiter, LoadOptions, Rules, Zero, windows_1252};
 use crate::error::Result;
 
 mod ardupilot;
@@ -173,7 +171,7 @@ fn beginning(body: &[u8]) -> String {
         Ok(text) => text.to_owned(),
         // A character may be cut at the end.
         Err(e) if e.error_len().is_none() => String::from_utf8_lossy(&part[..e.valid_up_to()]).into_owned(),
-        Err(_) => WINDOWS_1252.decode_without_bom_handling(part).0.into_owned(),
+        Err(_) => windows_1252::decode(part),
     }
 }
 

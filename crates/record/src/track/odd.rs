@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use encoding_rs::WINDOWS_1252;
+use super::windows_1252;
 
 /// What stands in a cell besides its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -72,7 +72,7 @@ pub(crate) fn odd(cell: &[u8], decimal_comma: bool) -> Option<Odd> {
     // Hard blanks and currencies in Windows-1252; where they stand is asked of text alone.
     let text = match std::str::from_utf8(cell) {
         Ok(text) => Cow::Borrowed(text),
-        Err(_) => WINDOWS_1252.decode_without_bom_handling(cell).0,
+        Err(_) => Cow::Owned(windows_1252::decode(cell)),
     };
     let text = text.as_ref();
     if text.len() > 40 || !text.bytes().any(|b| b.is_ascii_digit()) {

@@ -7,7 +7,6 @@ use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use encoding_rs::{UTF_16BE, UTF_16LE, WINDOWS_1252};
 use memchr::{memchr, memchr_iter};
 use sha2::{Digest, Sha256};
 
@@ -15,7 +14,7 @@ use super::facts::Facts;
 use super::packing::Packing;
 use super::unsupported::refuse_binaries;
 use super::view::{View, Want};
-use super::{Encoding, Extent, Format, Source, Wanted};
+use super::{Encoding, Extent, Format, Source, Wanted, windows_1252};
 use crate::error::{Error, Result};
 use crate::memory::{Full, Share, limit};
 
@@ -215,7 +214,7 @@ fn of_file(e: Error, path: &Path) -> Error {
 /// Bytes of the tokeniser's text as characters.
 pub(crate) fn decoded(bytes: &[u8], encoding: Encoding) -> Cow<'_, str> {
     match encoding {
-        Encoding::Latin1 => WINDOWS_1252.decode_without_bom_handling(bytes).0,
+        Encoding::Latin1 => Cow::Owned(windows_1252::decode(bytes)),
         Encoding::Utf8 { .. } | Encoding::Utf16 { .. } => String::from_utf8_lossy(bytes),
     }
 }
@@ -274,15 +273,17 @@ fn unpacked<'a>(stored: &'a [u8], path: &Path, want: Want) -> Result<Unpacked<'a
 const PIECE: u64 = 4 << 20;
 
 fn from_utf16(bytes: &[u8], big_endian: bool, path: &Path) -> Result<Vec<u8>> {
-    let encoding = if big_endian { UTF_16BE } else { UTF_16LE };
-    match encoding.decode_without_bom_handling_and_without_replacement(bytes) {
-        Some(text) => Ok(text.into_owned().into_bytes()),
-        None => Err(Error::input(
+    let broken = || {
+        Error::input(
             path,
             "it starts as UTF-16 and is not: half a character, or an odd number of bytes",
             "save it again as UTF-8",
-        )),
-    }
+        )
+    };
+    let (units, []) = bytes.as_chunks::<2>() else { return Err(broken()) };
+    let unit = if big_endian { u16::from_be_bytes } else { u16::from_le_bytes };
+    let text: std::result::Result<String, _> = char::decode_utf16(units.iter().map(|&two| unit(two))).collect();
+    text.map(String::into_bytes).map_err(|_| broken())
 }
 
 fn eight_bit(bytes: &[u8], bom: bool, wanted: Option<Encoding>, path: &Path) -> Result<Encoding> {

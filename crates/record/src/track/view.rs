@@ -8,12 +8,10 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
 
-use encoding_rs::WINDOWS_1252;
-
 use super::number::Reading;
 use super::style::Style;
 use super::text::decoded;
-use super::{Aside, Encoding, Format};
+use super::{Aside, Encoding, Format, windows_1252};
 use crate::error::{Error, Result};
 
 mod edit;
@@ -225,7 +223,7 @@ impl View {
             }
             let name = field.name.replace(['\t', '\n', '\r'], " ");
             match encoding {
-                Encoding::Latin1 => self.table.extend_from_slice(&WINDOWS_1252.encode(&name).0),
+                Encoding::Latin1 => self.table.extend_from_slice(&windows_1252::encode(&name)),
                 Encoding::Utf8 { .. } | Encoding::Utf16 { .. } => self.table.extend_from_slice(name.as_bytes()),
             }
         }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use encoding_rs::WINDOWS_1252;
+use crate::track::windows_1252;
 
 /// A line of the text, without its line end.
 #[derive(Debug, Clone, Copy)]
@@ -41,7 +41,7 @@ impl<'a> Piece<'a> {
     pub(crate) fn decoded(self) -> String {
         match std::str::from_utf8(self.bytes) {
             Ok(text) => text.to_owned(),
-            Err(_) => WINDOWS_1252.decode_without_bom_handling(self.bytes).0.into_owned(),
+            Err(_) => windows_1252::decode(self.bytes),
         }
     }
 
