@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use wildpoint::calibration::{Calibration, calibrate};
+use wildpoint::calibration::{Calibration, Rules, calibrate};
 use wildpoint::method::{METHODS, Method, Rate, judge_segments, noise, segments, voting};
 use wildpoint::param::{Settings, Value};
 use wildpoint::repair::{self, Damage};
@@ -31,7 +31,7 @@ struct Channel<'a> {
 impl<'a> Channel<'a> {
     fn new(record: &'a Record) -> Self {
         let series = Series::new(&record.t, &record.y);
-        let calibration = calibrate(&series, &Stop::never()).unwrap_or_else(|e| panic!("{e:?}"));
+        let calibration = calibrate(&series, Rules::default(), &Stop::never()).unwrap_or_else(|e| panic!("{e:?}"));
         Self { record, series, calibration }
     }
 
@@ -54,7 +54,7 @@ fn calibrations(criterion: &mut Criterion) {
         let series = Series::new(&record.t, &record.y);
         group.throughput(Throughput::Elements(n as u64));
         group.bench_function(BenchmarkId::new("of a channel", n), |b| {
-            b.iter(|| calibrate(black_box(&series), &Stop::never()).map_or(0, |c| c.limits.len()));
+            b.iter(|| calibrate(black_box(&series), Rules::default(), &Stop::never()).map_or(0, |c| c.limits.len()));
         });
     }
     group.finish();

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use crate::calibration::calibrate;
+use crate::calibration::{Rules, calibrate};
 use crate::method::noise;
 use crate::method::shared::MAX_GAP;
 use crate::param::Value;
@@ -279,7 +279,8 @@ const CALIBRATED: usize = 100_000;
 fn calibrated(series: &Series<'_>, unit: &str) -> Vec<String> {
     let n = series.len().min(CALIBRATED);
     let head = Series::new(&series.t[..n], &series.y[..n]);
-    let mut words = calibrate(&head, &Stop::never()).map(|found| found.words(unit)).unwrap_or_default();
+    let mut words =
+        calibrate(&head, Rules::default(), &Stop::never()).map(|found| found.words(unit)).unwrap_or_default();
     if n < series.len() {
         words.push(format!("by the first {n} samples"));
     }

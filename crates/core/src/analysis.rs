@@ -152,9 +152,12 @@ impl Detection {
         let rate = input.rate.map(|r| Rate { t: &r.t, y: &r.y });
         let segments = segments(&series, &setup.settings, stop)?;
         let known = previous.filter(|p| p.sight.shows_the_same(&sight.0)).and_then(|p| p.calibration.clone());
-        let calibration = match known {
-            None if noise::by_record(&setup.settings) => Some(Arc::new(calibrate(&series, stop)?)),
-            known => known,
+        let calibration = match noise::rules(&setup.settings) {
+            Some(rules) => match known.filter(|known| known.rules == rules) {
+                None => Some(Arc::new(calibrate(&series, rules, stop)?)),
+                known => known,
+            },
+            None => known,
         };
         let scales = noise::scales_by(&series, &segments, &setup.settings, calibration.as_deref(), stop)?;
         let judged = judge_segments(setup.method, &series, (&segments, &scales), rate, &setup.settings, stop)?;

@@ -12,6 +12,8 @@
 //! 3. `background`: the 95 % quantile of the residuals of the neighbourhood: the limit rises where the noise does.
 //! 4. `threshold`: the multiple of it at which the residuals of this record end and wild points begin.
 //!
+//! By the rules of [`Rules::Noise`] no limit lies below the `reach` of the noise of the whole record.
+//!
 //! Steps 2 to 4 run three times, each time without the samples found so far. A long record is calibrated so in `blocks`
 //! that stand for all of it.
 //!
@@ -28,6 +30,7 @@ mod background;
 mod blocks;
 mod bridge;
 mod coast;
+mod reach;
 pub mod repeated;
 mod residual;
 mod resolution;
@@ -40,15 +43,32 @@ pub mod wrap;
 use background::background;
 use bridge::bridge;
 use coast::coast;
+pub use reach::Whole;
+use reach::reach;
 use residual::{Residuals, outside};
 use resolution::resolution;
 pub use stretches::{local_interval, stretches};
 use threshold::{threshold, weight};
 pub(crate) use words::amount;
 
+/// The rules of a calibration. Saved results name them, so that they stay what they were.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Rules {
+    /// The first ones: normal noise reaches as far in a record of any length.
+    Record,
+    /// Noise reaches farther in a longer record; an unusual value is doubtful also where the record is rough; and what
+    /// both sides object to by ten limits is wild whatever the method says.
+    #[default]
+    Noise,
+}
+
 /// What is known of a channel before a method judges it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibration {
+    /// The rules that it was made by.
+    pub rules: Rules,
+    /// What the record is as a whole; none by [`Rules::Record`].
+    pub whole: Option<Whole>,
     /// The smallest step that many neighbours share, in channel units; 0 where values are not on a grid.
     pub resolution: f64,
     /// Share of samples that repeat the value before them, from 0 to 1.
@@ -86,6 +106,7 @@ struct Record<'a> {
     stretches: Vec<std::ops::Range<usize>>,
     holds: bool,
     resolution: f64,
+    rules: Rules,
 }
 
 impl Calibration {
@@ -94,6 +115,13 @@ impl Calibration {
     pub fn typical_limit(&self) -> Option<f64> {
         let mut finite: Vec<f64> = self.limits.iter().copied().filter(|l| l.is_finite()).collect();
         (!finite.is_empty()).then(|| median_in_place(&mut finite))
+    }
+
+    /// The share of the limit of the sample at `position`, which has this value, that is its limit with tails that weigh
+    /// once, where they weigh squared: above 0, at most 1. Less where the value is unusual for the whole record.
+    pub(crate) fn lower(&self, position: usize, value: f64) -> f64 {
+        let lower = 1.0 / self.tails;
+        self.whole.map_or(lower, |whole| whole.doubtful_share(value, self.limits[position], lower))
     }
 
     /// How many samples stand clear of the noise: those with an objection of twice their limit. 0 where more than one
@@ -106,14 +134,14 @@ impl Calibration {
     }
 }
 
-/// Calibrates a channel: a pure function of its times and values, the same on any number of threads.
+/// Calibrates a channel: a pure function of its times and values and of the rules, the same on any number of threads.
 ///
 /// # Errors
 /// [`Stopped`] as soon as nobody waits for the result any more.
-pub fn calibrate(series: &Series<'_>, stop: &Stop) -> Result<Calibration, Stopped> {
+pub fn calibrate(series: &Series<'_>, rules: Rules, stop: &Stop) -> Result<Calibration, Stopped> {
     let (t, y) = (series.t.as_ref(), series.y.as_ref());
     let holds = share_held(y) >= HOLDS;
-    let record = Record { t, y, stretches: stretches(t, Some(MAX_GAP)), holds, resolution: resolution(y) };
+    let record = Record { t, y, stretches: stretches(t, Some(MAX_GAP)), holds, resolution: resolution(y), rules };
     if y.len() > blocks::LONG { blocks::calibrate(&record, stop) } else { calibrate_whole(&record, stop) }
 }
 
@@ -123,12 +151,14 @@ fn calibrate_whole(record: &Record<'_>, stop: &Stop) -> Result<Calibration, Stop
     let mut residuals = WINDOWS.map(Residuals::new);
     round(record, &mut residuals, &mut masked, Round::First, stop)?;
     round(record, &mut residuals, &mut masked, Round::Further, stop)?;
-    let Limits { limits, tails } = round(record, &mut residuals, &mut masked, Round::Last, stop)?;
+    let Limits { limits, tails, reach } = round(record, &mut residuals, &mut masked, Round::Last, stop)?;
     coast(record, &limits, &mut masked, stop)?;
     let bridged = bridge(record, &limits, &mut masked, stop)?;
     let mut objections = outside(record, &masked, |_| true, stop)?;
     objections.iter_mut().zip(bridged).for_each(|(o, b)| *o = o.max(b));
-    Ok(Calibration { resolution: record.resolution, held: share_held(record.y), limits, tails, objections })
+    let Record { rules, resolution, .. } = *record;
+    let whole = (rules == Rules::Noise).then(|| Whole::of(record.y, reach));
+    Ok(Calibration { rules, whole, resolution, held: share_held(record.y), limits, tails, objections })
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -157,6 +187,8 @@ fn coarse_mask(record: &Record<'_>, stop: &Stop) -> Result<Vec<bool>, Stopped> {
 struct Limits {
     limits: Vec<f64>,
     tails: f64,
+    /// How far the noise of the whole record reaches, in the window in which that is least.
+    reach: f64,
 }
 
 /// One round: limits under the mask, and the mask that they give.
@@ -173,7 +205,7 @@ fn round(
     let lower = (STEPS * record.resolution).max(if first { 0.0 } else { WHITE * white_noise(record, masked) });
     let mut least = vec![f64::INFINITY; n];
     let mut scores = vec![f64::INFINITY; n];
-    let mut tails = 1.0_f64;
+    let (mut tails, mut least_reach) = (1.0_f64, f64::INFINITY);
     for (index, residuals) in residuals.iter_mut().enumerate() {
         let r = residuals.update(record, masked, stop)?;
         // 3.4 medians-and-a-bit and 2 quantiles of 85 %: 2.9 deviations of normal noise either way.
@@ -182,6 +214,15 @@ fn round(
         if base <= 0.0 {
             base = r.iter().copied().filter(|x| *x > 0.0).fold(f64::INFINITY, f64::min);
         }
+        if index == 0 && !first {
+            let local = background(r, masked, wide, 0.9, stop)?;
+            tails = threshold::tails(r, masked, &local, (0.3 * base, record.resolution));
+        }
+        if record.rules == Rules::Noise && !first {
+            let reach = reach(r, masked);
+            base = base.max(reach);
+            least_reach = least_reach.min(reach);
+        }
         let limit: Vec<f64> = if first {
             let local = background(r, masked, wide, 0.6, stop)?;
             local.iter().map(|x| base.max(1.9 * 2.4 * x)).collect()
@@ -189,10 +230,6 @@ fn round(
             let (far, near) = (background(r, masked, wide, 0.95, stop)?, background(r, masked, narrow, 0.95, stop)?);
             far.iter().zip(&near).map(|(far, near)| base.max(1.3 * far).max(1.9 * near)).collect()
         };
-        if index == 0 && !first {
-            let local = background(r, masked, wide, 0.9, stop)?;
-            tails = threshold::tails(r, masked, &local, (0.3 * base, record.resolution));
-        }
         scores.iter_mut().zip(r).zip(&limit).for_each(|((s, r), l)| *s = s.min(r / l));
         least.iter_mut().zip(&limit).for_each(|(all, l)| *all = all.min(*l));
     }
@@ -209,7 +246,7 @@ fn round(
         coast(record, &limits, masked, stop)?;
         bridge(record, &limits, masked, stop)?;
     }
-    Ok(Limits { limits: least, tails })
+    Ok(Limits { limits: least, tails, reach: least_reach })
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts of samples are far below 2^53")]
@@ -268,7 +305,7 @@ mod tests {
     }
 
     fn limits(t: &[f64], y: &[f64]) -> Vec<f64> {
-        calibrate(&Series::new(t, y), &Stop::never()).unwrap().limits
+        calibrate(&Series::new(t, y), Rules::Noise, &Stop::never()).unwrap().limits
     }
 
     #[test]
@@ -297,7 +334,7 @@ mod tests {
         let t: Vec<f64> = (0..200).map(f64::from).collect();
         let mut y: Vec<f64> = (0..200).map(noise).collect();
         (y[100], y[199]) = (1000.0, 1000.0);
-        let found = calibrate(&Series::new(&t, &y), &Stop::never()).unwrap();
+        let found = calibrate(&Series::new(&t, &y), Rules::Noise, &Stop::never()).unwrap();
         assert!(found.objections[100] > 990.0 && (90.0..101.0).contains(&found.objections[199]));
         assert!(found.objections[50] < 5.0);
     }

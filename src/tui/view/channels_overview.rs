@@ -14,7 +14,7 @@ use super::super::words::counted;
 use super::overlay::Choice;
 use super::queue::ratio_text;
 use super::{clear, fit, thousands};
-use crate::method::shared::RECORD;
+use crate::method::shared::NOISE;
 use crate::plot::SparkColumn;
 use crate::session::Setup;
 use crate::track::printable;
@@ -217,7 +217,7 @@ fn method_words(setup: &Setup) -> String {
     let about = setup.method.about();
     let value = |key: &str| setup.settings.mattering().find(|(p, _)| p.key == key).map(|(_, v)| v.to_string());
     let multiplier = ["k", "c"].iter().find_map(|key| value(key).map(|v| format!(" {key} {v}")));
-    let floor = value("floor").filter(|floor| floor != RECORD).map(|floor| format!(" {floor}"));
+    let floor = value("floor").filter(|floor| floor != NOISE).map(|floor| format!(" {floor}"));
     format!("{}{}{}", about.id, multiplier.unwrap_or_default(), floor.unwrap_or_default())
 }
 

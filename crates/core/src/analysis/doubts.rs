@@ -24,7 +24,7 @@ fn many_flagged(detection: &Detection, counts: &Counts) -> Option<String> {
     let has_floor = settings.params().iter().any(|p| p.key == FLOOR.key);
     let cause = match detection.calibration.as_deref() {
         _ if has_floor && !noise::by_record(settings) => {
-            "the scale assumes white noise on a smooth track; floor = record measures it instead"
+            "the scale assumes white noise on a smooth track; floor = noise measures it instead"
         }
         Some(found) if found.held >= HOLDS => {
             "the record holds values and then jumps, and the jumps may not be outliers: look at the longest runs"

@@ -68,6 +68,8 @@ pub(super) fn calibrate(record: &Record<'_>, stop: &Stop) -> Result<Calibration,
     let doubtful = Extract::of(record, surroundings(record, &close));
     let objections = objections(&doubtful, record, (&limits, &close), stop)?;
     Ok(Calibration {
+        rules: record.rules,
+        whole: found.whole,
         resolution: record.resolution,
         held: share_held(record.y),
         limits,
@@ -100,8 +102,7 @@ impl Extract {
 
     /// As a record of the same kind as `whole`.
     fn record(&self, whole: &Record<'_>) -> Record<'_> {
-        let (holds, resolution) = (whole.holds, whole.resolution);
-        Record { t: &self.t, y: &self.y, stretches: self.stretches.clone(), holds, resolution }
+        Record { t: &self.t, y: &self.y, stretches: self.stretches.clone(), ..*whole }
     }
 }
 
@@ -296,7 +297,7 @@ fn objections(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::calibration;
+    use crate::calibration::{self, Rules};
     use crate::series::Series;
 
     /// Even deviates from 0 to 1: the upper half of Knuth's linear congruential generator.
@@ -315,7 +316,7 @@ mod tests {
 
     fn calibrated(t: &[f64], y: &[f64]) -> Calibration {
         assert!(y.len() > LONG);
-        calibration::calibrate(&Series::new(t, y), &Stop::never()).unwrap()
+        calibration::calibrate(&Series::new(t, y), Rules::Noise, &Stop::never()).unwrap()
     }
 
     fn times(n: usize) -> Vec<f64> {

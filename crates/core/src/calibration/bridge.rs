@@ -102,6 +102,7 @@ fn patch(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::calibration::Rules;
 
     /// A bend of 100 samples with a ripple of 0.3, in limits of 4.
     fn bend() -> Vec<f64> {
@@ -111,7 +112,7 @@ mod tests {
     fn bridged(y: &[f64], masked: &mut [bool]) -> Vec<f64> {
         let t: Vec<f64> = (0..y.len()).map(|i| i as f64).collect();
         let stretches = std::iter::once(0..y.len()).collect();
-        let record = Record { t: &t, y, stretches, holds: false, resolution: 0.0 };
+        let record = Record { t: &t, y, stretches, holds: false, resolution: 0.0, rules: Rules::Noise };
         bridge(&record, &vec![4.0; y.len()], masked, &Stop::never()).unwrap()
     }
 

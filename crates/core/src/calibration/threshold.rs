@@ -63,7 +63,7 @@ fn events(scores: &[f64], weight: f64) -> Vec<f64> {
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts of samples are far below 2^53")]
-fn count(n: usize) -> f64 {
+pub(super) fn count(n: usize) -> f64 {
     n as f64
 }
 

@@ -44,9 +44,12 @@ pub(crate) fn amount(value: f64, unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::calibration::Rules;
 
     fn found(limits: Vec<f64>) -> Calibration {
-        Calibration { resolution: 25.0, held: 0.537, tails: 1.0, objections: vec![0.0; limits.len()], limits }
+        let objections = vec![0.0; limits.len()];
+        let rules = Rules::Noise;
+        Calibration { rules, whole: None, resolution: 25.0, held: 0.537, tails: 1.0, objections, limits }
     }
 
     #[test]

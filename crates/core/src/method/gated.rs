@@ -206,7 +206,7 @@ fn gate_block(
         let distance = (y - p).abs();
         let turns = match record {
             Some((objection, doubt)) => Sample { distance, objection }.turns(s, doubt),
-            None => [distance / s; 4],
+            None => [distance / s; 5],
         };
         if !ORDINARY.contains(&s) || turns.iter().any(|turn| turn.is_nan()) {
             (low, high) = (f64::INFINITY, 0.0);
@@ -269,12 +269,13 @@ mod tests {
                 0..300),
             doubt in prop_oneof![Just(1.0), Just(0.6), 0.1..1.0],
             lower in prop_oneof![Just(1.0), 0.3..1.0],
+            decides in proptest::bool::ANY,
             steps in proptest::collection::vec(prop_oneof![0.5..9.0, (1..20).prop_map(|i| f64::from(i) * 0.5)], 1..8),
         ) {
             let n = samples.len();
             let (y, expected) = (vec![0.0; n], samples.iter().map(|s| s.0).collect::<Vec<f64>>());
             let scale: Vec<f64> = samples.iter().map(|s| s.1).collect();
-            let objections: Vec<Objection> = samples.iter().map(|s| Objection { outside: s.2, lower }).collect();
+            let objections: Vec<Objection> = samples.iter().map(|s| Objection { outside: s.2, lower, decides }).collect();
             let fresh = |k| {
                 let mut judged = Judged { expected: expected.clone(), scale: scale.clone(), ..Judged::default() };
                 judged.gate_by(&y, k, Some((&objections, doubt)), &Stop::never()).unwrap();

@@ -6,13 +6,19 @@ use rayon::prelude::*;
 use super::noise::Objection;
 use super::shared::{DOUBT, multiplier};
 use super::{Direction, Directions, Judged, Segment, Verdict, reaches};
+use crate::math::line::LineSums;
 use crate::math::pieces::{self, PIECE};
+use crate::math::sliding::Summary;
 use crate::param::Settings;
 use crate::stop::{Stop, Stopped};
 
 /// An outlier lies outside of what both sides expect by this share of its tolerance at least: then no real change of
 /// the target, which one side agrees with, is removed.
 const OUTSIDE: f64 = 0.3;
+
+/// An objection of so many tolerances makes an outlier where the calibration decides: no method that starts anew on the
+/// level of a run can take it for the target's.
+const GROSS: f64 = 10.0;
 
 /// What `judged` is with no tolerance below the multiplier times the floor of its sample. An objection that does not
 /// reach that is withdrawn, and one with which only one side of the sample agrees leaves it suspect. Suspect is also
@@ -58,7 +64,28 @@ pub(super) fn bounded_below(
         }
         Ok(())
     })?;
+    expect_between(&mut judged, segment);
     Ok(judged)
+}
+
+/// What is expected of outliers that the method itself agrees with: it has followed them, so the line between the
+/// samples before and after them stands for it.
+fn expect_between(judged: &mut Judged, segment: &Segment<'_>) {
+    let Judged { verdict, tolerance, expected, .. } = judged;
+    let followed = |i: usize, expected: &[f64]| {
+        verdict[i] == Verdict::Outlier && !reaches((segment.y[i] - expected[i]).abs(), tolerance[i])
+    };
+    let mut first = 0;
+    while first < verdict.len() {
+        let end = first + (first..verdict.len()).take_while(|&i| followed(i, expected)).count();
+        if end > first {
+            let mut line = LineSums::default();
+            let around = first.checked_sub(1).into_iter().chain(Some(end).filter(|&end| end < verdict.len()));
+            around.for_each(|i| line.add([segment.t[i], segment.y[i]]));
+            (first..end).for_each(|i| expected[i] = line.at(segment.t[i]));
+        }
+        first = end + 1;
+    }
 }
 
 /// What is known of a sample besides its tolerance.
@@ -76,6 +103,7 @@ impl Sample {
     #[inline]
     fn verdict(self, said: Verdict, tolerance: f64, doubt: f64, change: bool) -> Verdict {
         match said {
+            Verdict::Outlier | Verdict::Suspect | Verdict::Normal if self.is_gross(tolerance) => Verdict::Outlier,
             Verdict::Outlier if self.both_sides(tolerance) => Verdict::Outlier,
             Verdict::Outlier if reaches(self.distance, tolerance) => Verdict::Suspect,
             // What only one direction objects to: its expected value is that of the other one.
@@ -91,7 +119,9 @@ impl Sample {
     /// The same where the multiplier only gates: the method says no more than that the distance reaches the tolerance.
     #[inline]
     pub(super) fn gated(self, tolerance: f64, doubt: f64) -> Verdict {
-        if reaches(self.distance, tolerance) {
+        if self.is_gross(tolerance) {
+            Verdict::Outlier
+        } else if reaches(self.distance, tolerance) {
             if self.both_sides(tolerance) { Verdict::Outlier } else { Verdict::Suspect }
         } else if self.is_doubtful(tolerance, doubt) {
             Verdict::Suspect
@@ -104,17 +134,26 @@ impl Sample {
         reaches(self.distance, limit) && self.objection.outside >= OUTSIDE * limit
     }
 
+    fn is_gross(self, tolerance: f64) -> bool {
+        self.objection.decides && self.objection.outside >= GROSS * tolerance
+    }
+
     fn is_doubtful(self, tolerance: f64, doubt: f64) -> bool {
         doubt < 1.0 && self.both_sides(doubt * self.objection.lower * tolerance)
     }
 
     /// The multipliers of `scale` at which its verdict changes.
     #[inline]
-    pub(super) fn turns(self, scale: f64, doubt: f64) -> [f64; 4] {
+    pub(super) fn turns(self, scale: f64, doubt: f64) -> [f64; 5] {
         let (ratio, outside) = (self.distance / scale, self.objection.outside / (OUTSIDE * scale));
         let lower = doubt * self.objection.lower;
         // Where nothing is doubtful, the lower limit turns nothing.
-        if doubt < 1.0 { [ratio, outside, ratio / lower, outside / lower] } else { [ratio, outside, ratio, outside] }
+        let gross = if self.objection.decides { self.objection.outside / (GROSS * scale) } else { ratio };
+        if doubt < 1.0 {
+            [ratio, outside, gross, ratio / lower, outside / lower]
+        } else {
+            [ratio, outside, gross, ratio, outside]
+        }
     }
 }
 
@@ -164,7 +203,7 @@ mod tests {
         settings.set_text("hampel", "k", "4").unwrap();
         settings.set_text("hampel", "doubt", "1").unwrap();
         let floors = [1.0, 1.0, 3.0, 1.0];
-        let objections = [0.0, 9.0, 9.0, 1.0].map(|outside| Objection { outside, lower: 1.0 });
+        let objections = [0.0, 9.0, 9.0, 1.0].map(|outside| Objection { outside, lower: 1.0, decides: false });
         let t = [0.0, 1.0, 2.0, 3.0];
         let segment = Segment {
             t: &t,
@@ -202,10 +241,41 @@ mod tests {
     }
 
     #[test]
+    fn a_gross_run_that_the_method_follows_is_an_outlier_with_the_line_over_it() {
+        let n = 6;
+        let y = [0.0, 1.0, 5002.0, 5003.0, 4.0, 5.0];
+        let objections = [0.0, 0.0, 5000.0, 5000.0, 0.0, 0.0];
+        let mut settings = Settings::defaults(Hampel.about().params);
+        settings.set_text("hampel", "doubt", "1").unwrap();
+        let t: Vec<f64> = (0..n).map(f64::from).collect();
+        let with = |decides, outside: [f64; 6]| {
+            let objections = outside.map(|outside| Objection { outside, lower: 1.0, decides });
+            let floors = vec![1.0; 6].into();
+            let scales = Scales { sigma: 1.0, floor: 1.0, floors: Some(floors), objections: Some(objections.into()) };
+            let series = crate::series::Series::new(&t, &y);
+            let segment = Segment::of(&series, &(0..6), &scales, None);
+            let said = Judged {
+                verdict: vec![Verdict::Normal; 6],
+                expected: y.to_vec(),
+                tolerance: vec![1.0; 6],
+                ..Judged::default()
+            };
+            bounded_below(said, &segment, &settings, &Stop::never()).unwrap()
+        };
+        let found = with(true, objections);
+        let outliers: Vec<usize> = (0..6).filter(|&i| found.verdict[i] == Verdict::Outlier).collect();
+        assert_eq!((outliers, &found.expected[..]), (vec![2, 3], &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0][..]));
+        // By the first rules, and with less than ten tolerances of 3, the method has the last word.
+        for other in [with(false, objections), with(true, objections.map(|o| o * 29.0 / 5000.0))] {
+            assert_eq!((other.verdict, other.expected), (vec![Verdict::Normal; 6], y.to_vec()));
+        }
+    }
+
+    #[test]
     fn doubt_begins_at_its_share_of_the_tolerance() {
         use Verdict::{Normal, Outlier, Suspect};
         let y = [0.0, 2.0, 2.0, 1.0, 4.0];
-        let objections = [9.0, 2.0, 0.1, 2.0, 4.0].map(|outside| Objection { outside, lower: 1.0 });
+        let objections = [9.0, 2.0, 0.1, 2.0, 4.0].map(|outside| Objection { outside, lower: 1.0, decides: false });
         let judged = || Judged { verdict: vec![Normal, Outlier, Outlier, Outlier, Outlier], ..Judged::default() };
         assert_eq!(said(&y, &objections, judged(), "0.5"), [Normal, Suspect, Normal, Normal, Outlier]);
         assert_eq!(said(&y, &objections, judged(), "0.3"), [Normal, Suspect, Normal, Suspect, Outlier]);
@@ -224,9 +294,12 @@ mod tests {
         directions.extend(vec![one(abnormal, normal); 3]);
         let judged = || Judged { verdict: vec![Suspect; 5], directions: directions.clone(), ..Judged::default() };
         assert_eq!(
-            said(&[0.0; 5], &[Objection { outside: 0.0, lower: 1.0 }; 5], judged(), "0.5"),
+            said(&[0.0; 5], &[Objection { outside: 0.0, lower: 1.0, decides: false }; 5], judged(), "0.5"),
             [Normal, Suspect, Suspect, Normal, Normal]
         );
-        assert_eq!(said(&[0.0; 5], &[Objection { outside: 0.0, lower: 1.0 }; 5], judged(), "1"), [Suspect; 5]);
+        assert_eq!(
+            said(&[0.0; 5], &[Objection { outside: 0.0, lower: 1.0, decides: false }; 5], judged(), "1"),
+            [Suspect; 5]
+        );
     }
 }

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::shared::{FLOOR, RECORD, multiplier};
+use super::shared::{FLOOR, NOISE, RECORD, multiplier};
 use super::{exceeds, zero_scale_of_many};
-use crate::calibration::{Calibration, calibrate};
+use crate::calibration::{Calibration, Rules, calibrate};
 use crate::math::movement::smallest_movement;
 use crate::math::order::{MAD_TO_SIGMA, Middle, median_of_many, median_of_smallest};
 use crate::math::{difference, pieces, smoothing};
@@ -42,8 +42,10 @@ pub struct Objection {
     /// How far it lies outside of what both sides expect ([`Calibration::objections`]), in channel units.
     pub outside: f64,
     /// The limit with tails that weigh once, as a share of the limit, where they weigh squared
-    /// ([`Calibration::tails`]): above 0, at most 1.
+    /// ([`Calibration::tails`]): above 0, at most 1. Less for a value that the record hardly takes elsewhere.
     pub lower: f64,
+    /// True where it makes an outlier alone when it is gross, whatever the method says.
+    pub decides: bool,
 }
 
 /// The scales of each segment under `settings` (which may have neither `sigma` nor `floor`); the channel is calibrated
@@ -57,14 +59,24 @@ pub fn scales(
     settings: &Settings,
     stop: &Stop,
 ) -> Result<Vec<Scales>, Stopped> {
-    let calibration = if by_record(settings) { Some(calibrate(series, stop)?) } else { None };
+    let calibration = rules(settings).map(|rules| calibrate(series, rules, stop)).transpose()?;
     scales_by(series, segments, settings, calibration.as_ref(), stop)
 }
 
 /// True when these settings take the floor from the calibration of the record.
 #[must_use]
 pub fn by_record(settings: &Settings) -> bool {
-    choice(settings, FLOOR.key) == Some(Choice::Word(RECORD))
+    rules(settings).is_some()
+}
+
+/// The rules of the calibration that these settings take the floor from; none where they do not.
+#[must_use]
+pub fn rules(settings: &Settings) -> Option<Rules> {
+    match choice(settings, FLOOR.key)? {
+        Choice::Word(NOISE) => Some(Rules::Noise),
+        Choice::Word(RECORD) => Some(Rules::Record),
+        Choice::Word(_) | Choice::Number(_) => None,
+    }
 }
 
 /// [`scales`] of a channel whose calibration is known.
@@ -78,9 +90,9 @@ pub fn scales_by(
     calibration: Option<&Calibration>,
     stop: &Stop,
 ) -> Result<Vec<Scales>, Stopped> {
-    let calibration = calibration.filter(|_| by_record(settings));
+    let calibration = calibration.filter(|c| rules(settings) == Some(c.rules));
     let own = calibration.map(|c| record_floors(c, settings, stop)).transpose()?;
-    let objections = calibration.map(|c| objections(c, stop)).transpose()?;
+    let objections = calibration.map(|c| objections(c, &series.y, stop)).transpose()?;
     let floors = match (choice(settings, "floor"), &own) {
         (None, _) => vec![0.0; segments.len()],
         (Some(Choice::Number(x)), _) => vec![x; segments.len()],
@@ -123,9 +135,10 @@ fn record_floors(calibration: &Calibration, settings: &Settings, stop: &Stop) ->
     Ok(pieces::collect(calibration.limits.len(), &|| stop.check(), floor)?.into())
 }
 
-fn objections(calibration: &Calibration, stop: &Stop) -> Result<Arc<[Objection]>, Stopped> {
-    let lower = 1.0 / calibration.tails;
-    let objection = |i: usize| Objection { outside: calibration.objections[i], lower };
+fn objections(calibration: &Calibration, y: &[f64], stop: &Stop) -> Result<Arc<[Objection]>, Stopped> {
+    let decides = calibration.rules == Rules::Noise;
+    let objection =
+        |i: usize| Objection { outside: calibration.objections[i], lower: calibration.lower(i, y[i]), decides };
     Ok(pieces::collect(calibration.objections.len(), &|| stop.check(), objection)?.into())
 }
 

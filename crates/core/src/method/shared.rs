@@ -27,11 +27,12 @@ pub const MAX_GAP: Param = Param {
 /// Lower bound on any scale.
 pub const FLOOR: Param = Param {
     key: "floor",
-    help: "lower bound on any scale; record: where the residuals of this record exceed the noise (calibration), for each \
-           sample; auto: half the smallest step or third difference of the data other than 0",
+    help: "lower bound on any scale; noise: where the residuals of this record exceed its noise (calibration), for each \
+           sample; record: the same by the rules of earlier versions; auto: half the smallest step or third difference \
+           of the data other than 0",
     unit: "channel units",
-    kind: Kind::RealOr { words: &[RECORD, "auto"], min: 0.0, max: 1e300 },
-    default: Value::Word(RECORD),
+    kind: Kind::RealOr { words: &[NOISE, RECORD, "auto"], min: 0.0, max: 1e300 },
+    default: Value::Word(NOISE),
     paper: Some(Paper::open(
         Value::Word("auto"),
         "the documents know no calibration: real records are no white noise, and without it they are flagged all over",
@@ -39,13 +40,17 @@ pub const FLOOR: Param = Param {
     matters: always,
 };
 
-/// The word of [`FLOOR`] that asks for the calibration of the record.
+/// The word of [`FLOOR`] that asks for the calibration of the record, by
+/// [`Rules::Noise`](crate::calibration::Rules::Noise).
+pub const NOISE: &str = "noise";
+
+/// The word of [`FLOOR`] that asks for it by [`Rules::Record`](crate::calibration::Rules::Record).
 pub const RECORD: &str = "record";
 
 /// Where suspects begin.
 pub const DOUBT: Param = Param {
     key: "doubt",
-    help: "with floor = record: a sample that reaches this share of the tolerance is suspect (a smaller share if the \
+    help: "with floor = noise: a sample that reaches this share of the tolerance is suspect (a smaller share if the \
            noise has heavy tails), where both sides object; 1: only what the method itself doubts",
     unit: "",
     kind: Kind::Real { min: 0.1, max: 1.0, step: Step::Add(0.05) },
