@@ -12,7 +12,7 @@
 //! 3. `background`: the 95 % quantile of the residuals of the neighbourhood: the limit rises where the noise does.
 //! 4. `threshold`: the multiple of it at which the residuals of this record end and wild points begin.
 //!
-//! By the rules of [`Rules::Noise`] no limit lies below the `reach` of the noise of the whole record.
+//! Where step 4 sees no such end, by [`Rules::Noise`] no limit lies below the `reach` of the noise of the whole record.
 //!
 //! Steps 2 to 4 run three times, each time without the samples found so far. A long record is calibrated so in `blocks`
 //! that stand for all of it.
@@ -56,7 +56,7 @@ pub(crate) use words::amount;
 pub enum Rules {
     /// The first ones: normal noise reaches as far in a record of any length.
     Record,
-    /// Noise reaches farther in a longer record; an unusual value is doubtful also where the record is rough; and what
+    /// Where no end of the noise is seen it reaches farther in a longer record; an unusual value is doubtful also where the record is rough; and what
     /// both sides object to by ten limits is wild whatever the method says.
     #[default]
     Noise,
@@ -219,9 +219,7 @@ fn round(
             tails = threshold::tails(r, masked, &local, (0.3 * base, record.resolution));
         }
         if record.rules == Rules::Noise && !first {
-            let reach = reach(r, masked);
-            base = base.max(reach);
-            least_reach = least_reach.min(reach);
+            least_reach = least_reach.min(reach(r, masked));
         }
         let limit: Vec<f64> = if first {
             let local = background(r, masked, wide, 0.6, stop)?;
@@ -237,8 +235,12 @@ fn round(
         let outside = outside(record, masked, |_| true, stop)?;
         scores.iter_mut().zip(&outside).zip(&least).for_each(|((s, o), l)| *s = s.min(o / (0.5 * l)));
     }
-    let times = threshold(&scores, weight(tails));
-    least.par_iter_mut().for_each(|l| *l *= times);
+    let end = threshold(&scores, weight(tails));
+    let times = end.times;
+    // Where the record does not show an end of its noise, the tail says how far the noise reaches.
+    let extended = record.rules == Rules::Noise && !first && !end.shown;
+    let floor = if extended { least_reach * weight(tails) } else { 0.0 };
+    least.par_iter_mut().for_each(|l| *l = (*l * times).max(floor));
     if pass != Round::Last {
         let low = if first { times } else { 0.6 * times };
         *masked = scores.iter().map(|s| *s >= low).collect();

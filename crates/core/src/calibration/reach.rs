@@ -6,11 +6,12 @@ use crate::math::order::median_in_place;
 /// The quantiles of the residuals that show how their tail falls off: 85 % and 97 %.
 const QUANTILES: [f64; 2] = [0.85, 0.97];
 
-/// So many samples of the record may lie beyond the reach: a single one says nothing of a distribution.
-const BEYOND: f64 = 10.0;
+/// So many samples of the record lie beyond the reach: where a single one lies is chance.
+const BEYOND: f64 = 3.0;
 
-/// Exponents of the tail: from heavier than exponential (1) to that of a normal deviate between the two quantiles.
-const EXPONENT: [f64; 2] = [0.7, 1.498];
+/// Exponents of the tail: from a little heavier than exponential (1) to that of a normal deviate between the two
+/// quantiles. A tail that looks heavier still is noise of two states, which the local limits know.
+const EXPONENT: [f64; 2] = [0.85, 1.498];
 
 /// Values are usual within this quantile of the distances from their median …
 const USUAL: f64 = 0.95;
@@ -25,7 +26,7 @@ pub struct Whole {
     pub middle: f64,
     /// 95 % of the values lie within this distance of it.
     pub spread: f64,
-    /// The residual that about ten samples of such noise exceed, in channel units.
+    /// The residual that about three samples of such noise exceed, in channel units.
     pub reach: f64,
 }
 
@@ -44,9 +45,8 @@ impl Whole {
     }
 }
 
-/// The residual that about ten of the unmasked samples would exceed if the tail falls off as it does between two
-/// quantiles of `r`, as exp(-x^c): the more samples, the farther noise reaches. At least what it is for few samples of
-/// normal noise.
+/// The residual that about three of the unmasked samples would exceed if the tail falls off as it does between two
+/// quantiles of `r`, as exp(-x^c): the more samples, the farther noise reaches.
 pub(super) fn reach(r: &[f64], masked: &[bool]) -> f64 {
     let [near, far] = QUANTILES.map(|q| quantile_of(r, masked, q));
     let [log_near, log_far] = QUANTILES.map(|q| -(1.0 - q).ln());
@@ -67,18 +67,18 @@ mod tests {
 
     #[test]
     fn exponential_tails_reach_as_far_as_their_logarithm() {
-        // exp(-x) = 10 / 20,000 at x = ln 2,000.
+        // exp(-x) = 3 / 20,000.
         let r = residuals(20_000, |share| -(1.0 - share).ln());
         let found = reach(&r, &vec![false; r.len()]);
-        assert!((found / 2000_f64.ln() - 1.0).abs() < 0.005, "{found}");
+        assert!((found / (20_000.0_f64 / 3.0).ln() - 1.0).abs() < 0.005, "{found}");
     }
 
     #[test]
     fn even_residuals_reach_farther_only_by_the_normal_exponent_and_masked_ones_do_not_count() {
         let mut r = residuals(1000, |share| share);
         let mut masked = vec![false; 1000];
-        // 0.85 (ln 100 / ln (1 / 0.15))^(1 / 1.498).
-        let wanted = 0.85 * (100_f64.ln() / -0.15_f64.ln()).powf(1.0 / 1.498);
+        // 0.85 (ln (1000 / 3) / ln (1 / 0.15))^(1 / 1.498).
+        let wanted = 0.85 * ((1000.0_f64 / 3.0).ln() / -0.15_f64.ln()).powf(1.0 / 1.498);
         assert!((reach(&r, &masked) / wanted - 1.0).abs() < 0.005);
         r.extend([50.0; 100]);
         masked.extend([true; 100]);

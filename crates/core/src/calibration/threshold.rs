@@ -24,27 +24,36 @@ const FARTHEST: f64 = 0.0015;
 /// An end of the noise beyond which fewer than this share of the events lie is none.
 const ENOUGH: f64 = 0.2;
 
+/// Where the noise of a record ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct End {
+    /// The score at which it ends, at least 1.
+    pub(super) times: f64,
+    /// True where the scores show an end: above it hardly any event is lost for a while.
+    pub(super) shown: bool,
+}
+
 /// The score at which noise ends, at least 1. `scores`: residuals in limits of normal noise; `weight`: how much
 /// heavier than normal the tails are (at least 1), by which all scores are lessened first.
-pub(super) fn threshold(scores: &[f64], weight: f64) -> f64 {
+pub(super) fn threshold(scores: &[f64], weight: f64) -> End {
     let events = events(scores, weight);
     let above = |t: f64| events.len() - events.partition_point(|x| *x < t);
     let of_all = |share: f64| share * count(scores.len());
     if count(above(1.0)) <= of_all(FEW).max(2.0) {
-        return weight;
+        return End { times: weight, shown: false };
     }
     let mut end = FROM;
     while above(end) > 0 && count(above(end * RAISED)) < KEPT * count(above(end)) {
         end *= STEP;
     }
     if count(above(end)) >= ENOUGH * count(above(1.0)) {
-        return weight * end.max(1.0);
+        return End { times: weight * end.max(1.0), shown: true };
     }
     let mut least = 1.0;
     while count(above(least)) > of_all(FARTHEST).max(2.0) {
         least *= STEP;
     }
-    weight * least
+    End { times: weight * least, shown: false }
 }
 
 /// The largest score of each event, ascending, in units of `weight`.
