@@ -58,7 +58,8 @@ pub(super) fn run(args: &AdviseArgs, out: &mut dyn Write) -> Result<Ending> {
         return Err(Error::input(&args.file, format!("{}: {why}", channel.name), why.way_out()));
     }
     let title = format!("{}: {}{note}\n\n", printable(&channel.name), what(&advice, args.seed));
-    let mut text = title + &table(&advice.methods, &channel.unit) + "\n";
+    let mut text = title + &table(&advice.methods, &channel.unit);
+    let _ = writeln!(text, "weights of the kinds (how many the record itself shows): {}\n", advice.weights_in_words());
     for id in left_out {
         let _ = writeln!(text, "{id}: needs a rate channel (--rate)");
     }
@@ -102,8 +103,8 @@ fn table(methods: &[Measured], unit: &str) -> String {
     }
     let unit = if unit.is_empty() { "channel units".to_owned() } else { printable(unit) };
     let legend = format!(
-        "sizes and repair errors in {unit}; run 2: runs of 2 samples; -: none of the sizes; alone: flags of fewer \
-         than half of the methods\n"
+        "sizes and repair errors in {unit}; run 2: runs of 2 samples; -: none of the sizes; alone: flags that neither \
+         half of the methods nor the calibration supports\n"
     );
     columns(&rows) + &legend
 }

@@ -13,10 +13,11 @@ pub(super) const ADVISE: &str = "\
      Copies of the channel receive wild points of known size in calm places: single ones, runs of 2, 5 and 10, and, \
      where the record has such, held values and dropouts; from 1 to 100 times the residual at which its noise ends. Every \
      method judges every copy. The table shows the size from which 95 % are found, for each kind; the share found in \
-     all; how many samples of the untouched record are flagged, and how many of those fewer than half of the methods \
-     flag; and how far repaired values are from the original ones. Of a channel with more than 65,536 samples 16 \
+     all; how many samples of the untouched record are flagged, and how many of those neither half of the methods \
+     nor the calibration supports; and how far repaired values are from the original ones. Of a channel with more than 65,536 samples 16 \
      pieces are used.\n\n\
-     The points that are put in are not the record's own wild points: the advice says what would be found, not what is \
+     Kinds weigh in the share as the record itself shows them: a record whose calibration finds many runs of ten asks for \
+     runs of ten. The points that are put in are not the record's own wild points: the advice says what would be found, not what is \
      there. Without --channel, the first channel is used, and its name printed.";
 
 /// What `advise` compares.

@@ -35,8 +35,8 @@ fn legend(unit: &str) -> String {
     let unit = if unit.is_empty() { "channel units".to_owned() } else { printable(unit) };
     format!(
         "sizes from which on 95 % are found and errors of repair in {unit}; run 2: runs of 2 samples; -: none of the \
-         sizes; found: the share of all, where single points weigh half; flags: on the record as it is; alone: those of \
-         fewer than half of the methods"
+         sizes; found: the share of all, weighted by kind; flags: on the record as it is; alone: those \
+         that neither half of the methods nor the calibration supports"
     )
 }
 

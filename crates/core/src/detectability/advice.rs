@@ -5,6 +5,7 @@ use serde::ser::{Serialize, Serializer};
 use super::curve::{Curve, Point, sizes};
 use super::event::Kind;
 use super::ground::Ground;
+use super::own::OfKind;
 use super::round::{Found, Tally};
 use super::{Alone, EVENTS, Study, Unsuitable};
 use crate::setup::Setup;
@@ -18,9 +19,6 @@ const MOST_FALSE: f64 = 0.01;
 /// Methods whose merits differ by less are equally good.
 const EQUAL: f64 = 0.01;
 
-/// Single points weigh as much as all other kinds together: most wild points are isolated (section 1 of \[001\]).
-const OF_SINGLE: f64 = 0.5;
-
 /// What is known of methods on a record.
 #[derive(Debug, Clone, serde::Serialize)]
 pub struct Advice {
@@ -32,6 +30,8 @@ pub struct Advice {
     pub limit: Option<f64>,
     /// Rounds that are done, of all.
     pub rounds: [usize; 2],
+    /// The kinds of wild points that are put in, and how much each weighs; empty where the record cannot be asked.
+    pub weights: Vec<OfKind>,
     /// A row for each setup, in the order in which they were given.
     pub methods: Vec<Measured>,
     /// The best of them; none before the first round.
@@ -57,7 +57,8 @@ pub struct Measured {
     pub repair_error: Option<f64>,
     /// Wild samples that it removed.
     pub removed: usize,
-    /// The share that it finds, from 0 to 1: the mean over sizes; single points weigh as much as all other kinds together.
+    /// The share that it finds, from 0 to 1: the mean over sizes, and over kinds by
+    /// [`Advice::weights`].
     pub recall: f64,
     /// The recall less a tenth for each false flag in a hundred samples, and less the share that it misses of what half of
     /// the methods flag on the record as it is.
@@ -71,10 +72,11 @@ pub struct Measured {
 pub struct Untouched {
     /// Outliers.
     pub flagged: usize,
-    /// Those that fewer than half of the methods flag: they are taken for false. A method counts as much as it finds of
-    /// what was put in.
+    /// Those that fewer than half of the methods flag and that object by less than their limit: they are taken for false.
+    /// A method counts as much as it finds of what was put in.
     pub alone: usize,
-    /// Samples that half of the methods flag and this one does not: they are taken for wild points of the record's own.
+    /// Samples that half of the methods flag, or that object by their limit or more, and that this one does not flag: they
+    /// are taken for wild points of the record's own.
     pub missed: usize,
     /// Suspects.
     pub suspects: usize,
@@ -104,9 +106,9 @@ impl Advice {
     /// The same about other methods that were measured on the copies of `study`.
     pub(super) fn among(study: &Study, methods: Vec<Measured>) -> Self {
         let rounds = [study.rounds.done, study.rounds.all];
-        let (tried, limit) = match &study.ground {
-            Ok(ground) => (ground.y.len(), Some(ground.typical_limit())),
-            Err(_) => (0, None),
+        let (tried, limit, weights) = match &study.ground {
+            Ok(ground) => (ground.y.len(), Some(ground.typical_limit()), ground.kinds.clone()),
+            Err(_) => (0, None, Vec::new()),
         };
         let order = if rounds[0] > 0 { ranked(&methods, tried) } else { Vec::new() };
         Self {
@@ -114,6 +116,7 @@ impl Advice {
             tried,
             limit,
             rounds,
+            weights,
             methods,
             recommended: order.first().copied(),
             runner_up: order.get(1).copied(),
@@ -144,11 +147,11 @@ impl Measured {
 
 /// What is known of the methods of `setups`, from what they found and what they say of the record as it is.
 pub(super) fn measured(ground: &Ground, setups: &[Setup], tallies: &[Tally], said: &[Alone]) -> Vec<Measured> {
-    let (kinds, limit, tried) = (ground.kinds(), ground.typical_limit(), ground.y.len());
-    let found: Vec<Vec<Curve>> = tallies.iter().map(|tally| curves(&kinds, &tally.found, limit)).collect();
-    let recalls: Vec<f64> = found.iter().map(|curves| recall(curves)).collect();
+    let (kinds, limit, tried) = (&ground.kinds, ground.typical_limit(), ground.y.len());
+    let found: Vec<Vec<Curve>> = tallies.iter().map(|tally| curves(kinds, &tally.found, limit)).collect();
+    let recalls: Vec<f64> = found.iter().map(|curves| recall(curves, kinds)).collect();
     let flagged: Vec<&[u32]> = said.iter().map(|said| said.flagged.as_slice()).collect();
-    let majority = Majority::of(&flagged, &recalls, tried);
+    let majority = Majority::of(&flagged, &recalls, &ground.wild);
     let of = |(index, (setup, kinds)): (usize, (&Setup, Vec<Curve>))| {
         let (tally, said, recall) = (&tallies[index], &said[index], recalls[index]);
         let untouched = Untouched {
@@ -174,9 +177,9 @@ pub(super) fn measured(ground: &Ground, setups: &[Setup], tallies: &[Tally], sai
     setups.iter().zip(found).enumerate().map(of).collect()
 }
 
-fn curves(kinds: &[Kind], found: &[Found], limit: f64) -> Vec<Curve> {
+fn curves(kinds: &[OfKind], found: &[Found], limit: f64) -> Vec<Curve> {
     let mut found = found.iter().copied();
-    let of_kind = |&kind: &Kind| {
+    let of_kind = |&OfKind { kind, .. }: &OfKind| {
         let point = |limits: Option<f64>| {
             let Found { events, flagged, seen } = found.next().unwrap_or_default();
             Point { limits, events, found: flagged, seen }
@@ -186,40 +189,43 @@ fn curves(kinds: &[Kind], found: &[Found], limit: f64) -> Vec<Curve> {
     kinds.iter().map(of_kind).collect()
 }
 
-/// The weighted vote of all methods on the untouched record. The weight of a method is its recall of the added points: the
-/// silence of a method that finds none of them means nothing.
-struct Majority {
+/// What is taken for wild of the untouched record: what its calibration says, which asks no method, and the weighted vote of
+/// all methods. The weight of a method is its recall of the added points: the silence of a method that finds none of them
+/// means nothing.
+struct Majority<'a> {
+    /// What the calibration says.
+    wild: &'a [bool],
     /// For each sample the weight of the methods that flag it.
     votes: Vec<f64>,
     /// What makes half of all weight.
     half: f64,
-    /// How many samples half of the weight flags.
+    /// How many samples are taken for wild.
     agreed: usize,
 }
 
-impl Majority {
-    fn of(flagged: &[&[u32]], weights: &[f64], samples: usize) -> Self {
-        let mut votes = vec![0.0; samples];
+impl<'a> Majority<'a> {
+    fn of(flagged: &[&[u32]], weights: &[f64], wild: &'a [bool]) -> Self {
+        let mut votes = vec![0.0; wild.len()];
         for (list, weight) in flagged.iter().zip(weights) {
             list.iter().for_each(|&at| votes[at as usize] += weight);
         }
         // Sums in another order may differ in their last bits: what is half of them is no less.
         let half = 0.5 * weights.iter().sum::<f64>() * (1.0 - 1e-9);
-        let mut all = Self { votes, half, agreed: 0 };
-        all.agreed = (0..samples).filter(|&at| all.flags(at)).count();
+        let mut all = Self { wild, votes, half, agreed: 0 };
+        all.agreed = (0..wild.len()).filter(|&at| all.flags(at)).count();
         all
     }
 
     fn flags(&self, at: usize) -> bool {
-        self.votes[at] > 0.0 && self.votes[at] >= self.half
+        self.wild[at] || self.votes[at] > 0.0 && self.votes[at] >= self.half
     }
 
-    /// How many of these less than half of the weight flags.
+    /// How many of these are not taken for wild.
     fn alone(&self, flagged: &[u32]) -> usize {
         flagged.iter().filter(|at| !self.flags(**at as usize)).count()
     }
 
-    /// How many that half of the weight flags are not among these.
+    /// How many that are taken for wild are not among these.
     fn missed(&self, flagged: &[u32]) -> usize {
         self.agreed - (flagged.len() - self.alone(flagged))
     }
@@ -230,20 +236,12 @@ fn share(count: usize, samples: usize) -> f64 {
     count as f64 / samples.max(1) as f64
 }
 
-/// The share of all that was put in: single points weigh as much as all other kinds together.
-fn recall(curves: &[Curve]) -> f64 {
-    // A kind for which there was room nowhere says nothing.
-    let mean = |single: bool| {
-        let known: Vec<f64> =
-            curves.iter().filter(|c| (c.kind == Kind::Single) == single).filter_map(|c| c.recall).collect();
-        #[expect(clippy::cast_precision_loss, reason = "a few kinds")]
-        let mean = (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64);
-        mean
-    };
-    match (mean(true), mean(false)) {
-        (Some(single), Some(others)) => OF_SINGLE * single + (1.0 - OF_SINGLE) * others,
-        (single, others) => single.or(others).unwrap_or(0.0),
-    }
+/// The share of all that was put in: the mean over the kinds by their weights. A kind for which there was room nowhere says
+/// nothing.
+fn recall(curves: &[Curve], kinds: &[OfKind]) -> f64 {
+    let known = || curves.iter().zip(kinds).filter_map(|(curve, kind)| Some((curve.recall?, kind.weight)));
+    let weight: f64 = known().map(|(_, weight)| weight).sum();
+    if weight > 0.0 { known().map(|(recall, weight)| recall * weight).sum::<f64>() / weight } else { 0.0 }
 }
 
 /// The rows from the best to the worst. Of equally good ones the first is that with the fewest false flags, then that
@@ -275,10 +273,10 @@ mod tests {
     #[test]
     fn what_half_of_the_methods_flag_is_not_false() {
         let lists: [&[u32]; 4] = [&[1, 5], &[5], &[5, 7], &[]];
-        let majority = Majority::of(&lists, &[1.0; 4], 10);
+        let majority = Majority::of(&lists, &[1.0; 4], &[false; 10]);
         assert_eq!(lists.map(|list| majority.alone(list)), [1, 0, 1, 0]);
         assert_eq!((majority.agreed, lists.map(|list| majority.missed(list))), (1, [0, 0, 0, 1]));
-        let one = Majority::of(&[&[3]], &[0.4], 10);
+        let one = Majority::of(&[&[3]], &[0.4], &[false; 10]);
         assert_eq!((one.alone(&[3]), one.missed(&[3])), (0, 0), "one method alone has nobody to disagree with");
     }
 
@@ -286,8 +284,19 @@ mod tests {
     fn methods_that_find_nothing_have_no_say() {
         // Three methods collapse on a record full of wild points; the fourth does not.
         let lists: [&[u32]; 4] = [&[], &[], &[], &[2, 4, 6]];
-        assert_eq!(Majority::of(&lists, &[1.0; 4], 10).alone(lists[3]), 3);
-        let majority = Majority::of(&lists, &[0.0, 0.05, 0.05, 0.8], 10);
+        assert_eq!(Majority::of(&lists, &[1.0; 4], &[false; 10]).alone(lists[3]), 3);
+        let majority = Majority::of(&lists, &[0.0, 0.05, 0.05, 0.8], &[false; 10]);
         assert_eq!((majority.alone(lists[3]), majority.missed(lists[1])), (0, 3));
+    }
+
+    #[test]
+    fn what_the_calibration_objects_to_is_not_false_and_must_be_found() {
+        // A run that one method of four finds, as the calibration does.
+        let lists: [&[u32]; 4] = [&[2, 3, 4, 8], &[], &[], &[]];
+        let mut wild = [false; 10];
+        wild[2..5].fill(true);
+        let majority = Majority::of(&lists, &[1.0; 4], &wild);
+        assert_eq!(lists.map(|list| majority.alone(list)), [1, 0, 0, 0]);
+        assert_eq!(lists.map(|list| majority.missed(list)), [0, 3, 3, 3]);
     }
 }

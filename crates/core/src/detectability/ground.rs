@@ -3,6 +3,7 @@
 use super::Unsuitable;
 use super::event::{Kind, Wanted, everything};
 use super::excerpt::excerpt;
+use super::own::{OfKind, Shown};
 use super::placement::Places;
 use crate::analysis::{Detection, Input, NoiseAt};
 use crate::calibration::HOLDS;
@@ -42,6 +43,10 @@ pub(super) struct Ground {
     pub(super) places: Places,
     /// What can be put in, kind by kind.
     pub(super) wanted: Vec<Wanted>,
+    /// Whether each sample objects by its limit or more: it is taken for a wild point of the record's own.
+    pub(super) wild: Vec<bool>,
+    /// How much each kind weighs.
+    pub(super) kinds: Vec<OfKind>,
     /// The value of a dropout.
     pub(super) dropout: Option<f64>,
     /// Step of the record's values; 0 where they are not on a grid.
@@ -72,6 +77,7 @@ impl Ground {
         let detection = Detection::of(seen, &calibrating, stop)?;
         let limits: Vec<f64> = (0..y.len()).map(|at| limit(&detection, at)).collect();
         let calm: Vec<bool> = (0..y.len()).map(|at| is_calm(&detection, at)).collect();
+        let wild: Vec<bool> = (0..y.len()).map(|at| is_wild(&detection, at)).collect();
         let calibration = detection.calibration.as_ref();
         let (held, resolution) = calibration.map_or((0.0, 0.0), |c| (c.held, c.resolution));
         let holds = held >= HOLDS;
@@ -85,21 +91,15 @@ impl Ground {
             return Ok(Err(why));
         }
         let wanted = everything(&kinds);
+        let kinds = Shown { wild: &wild, y: &y, segments: &detection.segments, dropout }.weights(&kinds);
         drop(series);
         let rate = input.rate.map(|rate| rate.borrowed().into_owned());
-        Ok(Ok(Self { t, y, rate, companions, limits, places, wanted, dropout, resolution, calibrating }))
+        Ok(Ok(Self { t, y, rate, companions, limits, places, wanted, wild, kinds, dropout, resolution, calibrating }))
     }
 
     /// What a method is given of a copy of the record.
     pub(super) fn input<'b>(&'b self, series: &'b Series<'b>) -> Input<'b> {
         Input { companions: &self.companions, ..Input::new(series, self.rate.as_ref()) }
-    }
-
-    /// The kinds that are put in.
-    pub(super) fn kinds(&self) -> Vec<Kind> {
-        let mut kinds: Vec<Kind> = self.wanted.iter().map(|w| w.kind).collect();
-        kinds.dedup();
-        kinds
     }
 
     /// How many wild points are put in at once: so many that a small share of the samples becomes wild.
@@ -152,4 +152,9 @@ fn limit(detection: &Detection, at: usize) -> f64 {
 fn is_calm(detection: &Detection, at: usize) -> bool {
     let quiet = |noise: NoiseAt| noise.limit.is_finite() && noise.limit > 0.0 && noise.objection < CALM * noise.limit;
     detection.noise_at(at).is_some_and(quiet)
+}
+
+fn is_wild(detection: &Detection, at: usize) -> bool {
+    let beyond = |noise: NoiseAt| noise.limit.is_finite() && noise.limit > 0.0 && noise.objection >= noise.limit;
+    detection.noise_at(at).is_some_and(beyond)
 }

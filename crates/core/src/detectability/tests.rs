@@ -43,6 +43,25 @@ fn a_seed_gives_the_same_on_any_number_of_threads_and_another_seed_something_els
 }
 
 #[test]
+fn the_record_as_it_is_stays_as_it_is() {
+    let (t, mut y) = record(600, 1.0);
+    (20..600).step_by(60).for_each(|at| y[at] += 40.0);
+    let setups: Vec<Setup> = setups().into_iter().rev().take(4).collect();
+    let series = Series::new(&t, &y);
+    let alone = |setup: &Setup| {
+        let detection = Detection::of((&series).into(), setup, &Stop::never()).unwrap();
+        detection.judged.verdict().iter().filter(|v| **v == Verdict::Outlier).count()
+    };
+    let expected: Vec<usize> = setups.iter().map(alone).collect();
+    assert!(expected.iter().any(|flags| *flags > 0), "{expected:?}");
+    let flags = |measured: &[Measured]| measured.iter().map(|m| m.untouched.flagged).collect::<Vec<_>>();
+    let mut study = Study::new((&series).into(), setups.clone(), 3, &Stop::never()).unwrap();
+    while study.advance(&Stop::never()).unwrap() {}
+    assert_eq!(flags(&study.advice().methods), expected);
+    assert_eq!(flags(&study.measure(&setups, &Stop::never()).unwrap()), expected, "after all copies");
+}
+
+#[test]
 fn larger_wild_points_are_found_at_least_as_often() {
     let (t, y) = record(1500, 1.0);
     let advice = finished(&t, &y, vec![Setup::standard()], 2);

@@ -1,6 +1,6 @@
 //! What a study found, in words.
 
-use super::{Advice, Curve, Kind, Measured, OF_ALL, Unsuitable};
+use super::{Advice, Curve, Kind, Measured, OF_ALL, OfKind, Unsuitable};
 use crate::calibration::amount;
 
 /// What a setting finds of wild points of one kind.
@@ -87,6 +87,14 @@ impl Measured {
 }
 
 impl Advice {
+    /// How much each kind weighs in the share that is found, and how many of it the record itself shows: "single 83 % (20),
+    /// run 2 17 % (3)". Empty where the record cannot be asked.
+    #[must_use]
+    pub fn weights_in_words(&self) -> String {
+        let of = |of: &OfKind| format!("{} {:.0} % ({})", of.kind.short(), 100.0 * of.weight, of.own);
+        self.weights.iter().map(of).collect::<Vec<_>>().join(", ")
+    }
+
     /// The reasons in two lines: what is recommended, and what comes next; or why nothing is.
     #[must_use]
     pub fn reasons(&self, unit: &str) -> Vec<String> {

@@ -16,7 +16,7 @@ use wildpoint_core::stop::Stop;
 use super::{KINDS, Kind, Record};
 
 /// Records of each kind.
-const RECORDS: u64 = 2;
+const RECORDS: u64 = 6;
 
 /// The recommended method counts as good where it reaches this share of the best.
 const NEARLY: f64 = 0.95;
@@ -66,7 +66,7 @@ fn trial(kind: &Kind, seed: u64) -> Trial {
 }
 
 #[test]
-#[ignore = "takes minutes: it studies 28 records"]
+#[ignore = "takes minutes: it studies 84 records"]
 #[expect(clippy::print_stdout, reason = "the table is what it is run for")]
 fn the_recommended_method_is_nearly_the_best_in_truth() {
     let names: Vec<&str> = setups().iter().map(|s| s.method.about().id).collect();

@@ -42,7 +42,7 @@ pub struct Row {
     pub recall: f64,
     /// Outliers on the record as it is.
     pub flagged: usize,
-    /// Those that fewer than half of the methods flag.
+    /// Those that neither half of the methods nor the calibration supports.
     pub alone: usize,
     /// Root mean square of its repairs minus the values before, in channel units; none where it repaired nothing.
     pub repair_error: Option<f64>,
