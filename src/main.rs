@@ -26,7 +26,7 @@ fn main() -> ExitCode {
     let mut cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(help) if !help.use_stderr() => help.exit(),
-        // Without its colours, since an argument (a file's name, say) stands in it.
+        // Without its colours, since an argument (for example a file's name) is in it.
         Err(wrong) => {
             let _ = write!(std::io::stderr(), "{}", printable_lines(&wrong.to_string()));
             return ExitCode::from(2);

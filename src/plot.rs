@@ -7,6 +7,7 @@
 pub(crate) mod columns;
 pub(crate) mod dots;
 mod drawn;
+mod filtered;
 pub(crate) mod flags;
 mod histogram;
 pub(crate) mod labels;
@@ -23,6 +24,7 @@ pub(crate) mod view;
 
 pub use columns::{ColumnSummary, Columns, Curve, Grid, Trace};
 pub use drawn::{Drawn, residual_top, state};
+pub use filtered::FilteredTrack;
 pub use flags::{Flag, FlagState, Flags};
 pub use histogram::{Histogram, Tally};
 pub use labels::{LABEL_WIDTH, ValueLabels};

@@ -30,7 +30,7 @@ pub use reproduction::reproduction_text;
 pub use summary::{ChannelSummary, Summary};
 
 /// Writes the report on a result that goes to `path`, in the form that its ending asks for: what the record is, the
-/// settings, the counts, pictures, the flags and decisions with their evidence, and how to get the result again. The
+/// settings, the counts, pictures, the flags and decisions with their evidence, and how to reproduce the result. The
 /// same result on the same day makes the same bytes.
 ///
 /// # Errors

@@ -29,14 +29,14 @@ use output::Label;
 pub use output::STREAM_COLUMNS;
 pub use setup::Plan;
 
-/// The nominal interval is learnt from so many samples.
+/// The nominal interval is learnt from this many samples.
 const LEARNT_FROM: usize = 10;
 
-/// The layout must be clear after so many lines, and the interval after so many rows.
+/// The layout must be clear after this many lines, and the interval after this many rows.
 const MOST_HEAD: usize = 20;
 const MOST_HELD: usize = 10_000;
 
-/// So many bad lines are told one by one.
+/// This many bad lines are told one by one.
 const MOST_TOLD: u64 = 5;
 
 /// Judges the lines of `input` as `args` say: a line for each goes to `out`, which is flushed whenever the sender

@@ -17,7 +17,7 @@ fn noise(i: usize) -> f64 {
     ((x >> 40) as f64) / f64::from(1 << 23) - 1.0
 }
 
-/// A record of one channel, a value a second, in so many decimals.
+/// A record of one channel, a value a second, in this many decimals.
 fn record(name: &str, decimals: usize, values: impl IntoIterator<Item = f64>) -> String {
     let mut text = format!("time_s,{name}\n");
     for (i, value) in values.into_iter().enumerate() {

@@ -308,7 +308,7 @@ fn a_signal_in_the_middle_of_writing_leaves_no_hidden_file() {
     }
 }
 
-/// The signal that ended a `clean` of so many rows which got the signal `name` as it wrote, and what it left; none
+/// The signal that ended a `clean` of this many rows which got the signal `name` as it wrote, and what it left; none
 /// where it was done before that.
 #[cfg(unix)]
 fn signalled_while_writing(name: &str, rows: u64) -> Option<(i32, Vec<String>)> {

@@ -139,8 +139,8 @@ fn a_run_of_missing_samples_changes_lengths_only() {
     }
 }
 
-/// Share of clean white noise that a method may flag at its defaults, in percent of 20,000 samples: about one and a
-/// half times what its test gives on Gaussian noise (0.27 % at 3 sigma one-sided once, more where scales are local).
+/// Share of clean white noise that a method may flag at its defaults, in percent of 20,000 samples: about 1.5
+/// times what its test gives on Gaussian noise (0.27 % at 3 sigma one-sided once, more where scales are local).
 fn false_alarm_bound(id: &str) -> f64 {
     match id {
         // alpha is per sample for Romanovsky; small windows have noisy scales.

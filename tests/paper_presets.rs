@@ -85,8 +85,8 @@ fn the_two_sided_test_goes_down_to_the_line_through_two_points() {
     assert!((without.expected[21] - 1.0).abs() < 1e-12, "{}", without.expected[21]);
 }
 
-/// m and l are separate in \[000\]: a cubic on 6 points, say, whose weights one step ahead are (-2 4 1 -4 -4 8) / 3 (they
-/// reproduce 1, x, x^2 and x^3 at 6 from 0 .. 5). Behind 0, .., 0, 1 it expects 8 / 3, and one on 18 points far less.
+/// m and l are separate in \[000\]: for example a cubic on 6 points, whose weights one step ahead are (-2 4 1 -4 -4 8) / 3
+/// (they reproduce 1, x, x^2 and x^3 at 6 from 0 .. 5). Behind 0, .., 0, 1 it expects 8 / 3, and one on 18 points far less.
 #[test]
 fn an_order_can_have_points_of_its_own() {
     let mut y = vec![0.0; 40];

@@ -169,7 +169,7 @@ fn what_only_a_flags_is_counted_walked_and_taken_back_as_one_edit() {
     let bench = bench.keys("g d");
     assert!(bench.frame().contains("from the start again"), "{}", bench.frame());
     assert_eq!(bench.0.state().cursor, only_a[0] as usize);
-    // Back to A, and one undo leads to B again, though A differs from B in a knob that was stepped just before.
+    // Back to A, and one undo leads to B again, though A differs from B in a parameter that was stepped just before.
     let k = |bench: &Bench| bench.0.plan().setup.settings.get("k");
     let (k_b, bench) = (k(&bench), bench.keys("g b"));
     assert_eq!((k(&bench), flagged(&bench)), (Some(Value::Real(4.0)), a.clone()));
@@ -212,7 +212,7 @@ fn all_methods_are_asked_once_and_again_when_the_question_changes() {
     let late = Box::new(wildpoint::tui::consensus::Consensus { agreed: vec![], ..(*consensus).clone() });
     update(&mut bench.0, Message::Polled { generation: 6, plan: 0, consensus: late });
     assert!(std::sync::Arc::ptr_eq(bench.0.state().consensus.as_ref().unwrap(), &consensus));
-    // A knob does not change what the others say; the paper's values do.
+    // A parameter does not change what the others say; the paper's values do.
     let bench = bench.keys(". .");
     assert!(std::sync::Arc::ptr_eq(bench.0.state().consensus.as_ref().unwrap(), &consensus));
     let bench = bench.keys("i");
@@ -278,7 +278,7 @@ fn detectability_of_the_settings_in_force() {
         assert!(bench.frame().contains("measuring"), "{}", bench.frame());
         let bench = measured(bench);
         assert_snapshot!(format!("detectability_{label}"), bench.frame());
-        // Another knob is another measurement; the same settings again are known.
+        // Another parameter is another measurement; the same settings again are known.
         assert!(bench.0.studying.is_none());
         let turned = bench.keys(".");
         assert!(turned.0.studying.is_some() && turned.frame().contains("the settings before"), "{}", turned.frame());

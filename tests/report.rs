@@ -1,4 +1,4 @@
-//! Reports: what is in them, that they are safe to open, and that they keep their word about the same result again.
+//! Reports: what is in them, that they are safe to open, and that what they say about reproducing the result is true.
 
 #![expect(clippy::unwrap_used, reason = "a failed expectation is a failed test")]
 
@@ -11,7 +11,7 @@ fn sha256(text: &str) -> String {
     Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect()
 }
 
-/// What stands between two texts, the first time.
+/// The text between two others, the first time.
 fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
     text.split_once(from).and_then(|(_, rest)| rest.split_once(to)).map(|(inside, _)| inside).unwrap()
 }

@@ -141,7 +141,7 @@ fn one_track_can_be_named_and_mistakes_are_told() {
     let inspected = folder.done("inspect all.csv --track sat");
     assert!(inspected.contains("track ") && inspected.contains("range_m@R,7"), "{inspected}");
     assert!(!inspected.contains("time goes back"), "{inspected}");
-    // By itself, the column is recognised.
+    // By itself, the column is detected.
     let recognised = folder.done("inspect all.csv");
     assert!(recognised.contains("`sat` tells 3 tracks apart"), "{recognised}");
 }

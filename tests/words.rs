@@ -1,4 +1,5 @@
-//! The words of the program are those of `docs/terms.md`: no text that a user can read has a word that the page rules out.
+//! The words of the program are those of `docs/terms.md`: no text that a user can read, no page and no comment has a word
+//! that the page rules out there.
 
 #![expect(clippy::expect_used, reason = "a test that cannot read its own data may say so by ending")]
 
@@ -7,13 +8,16 @@ mod literals;
 
 use std::path::{Path, PathBuf};
 
+/// Where comments are, besides the texts of the program.
+const COMMENTED: [&str; 5] = ["src", "crates", "tests", "benches", "fuzz"];
+/// Comments that have the words as examples.
+const EXAMPLES: [&str; 1] = ["tests/words"];
 /// Where texts of the program are.
 const SOURCES: [&str; 3] = ["src", "crates/core/src", "crates/record/src"];
 /// Doc comments that are shown: those of the command line.
 const SHOWN: &str = "src/cli";
-/// Where the words are those of the source documents, or are listed.
-const QUOTING: [&str; 8] = [
-    "docs/terms.md",
+/// Where the words of source documents are quoted: only what is ruled out everywhere is.
+const QUOTING: [&str; 7] = [
     "docs/methods.md",
     "docs/references.md",
     "src/experiment/gan",
@@ -22,6 +26,8 @@ const QUOTING: [&str; 8] = [
     "src/experiment/jin",
     "src/experiment/qin",
 ];
+/// The page itself.
+const PAGE: &str = "docs/terms.md";
 /// Texts that are part of saved results and stay what they are.
 const KEPT: [&str; 3] = ["patch", "patches", "stands for no value"];
 
@@ -37,10 +43,24 @@ fn below(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// A text that a user can read.
+/// What is ruled out in a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Reach {
+    /// The words of the first table: it is for those who read the source, or quotes the source documents.
+    Everywhere,
+    /// Those of both.
+    ForUsers,
+}
+
+/// A text of the project.
 struct Shown {
     place: String,
+    reach: Reach,
     text: String,
+}
+
+fn reach(name: &str) -> Reach {
+    if QUOTING.iter().any(|quoting| name.starts_with(quoting)) { Reach::Everywhere } else { Reach::ForUsers }
 }
 
 /// The texts of the program: strings, and the comments that become help.
@@ -48,14 +68,31 @@ fn texts_of_the_program() -> Vec<Shown> {
     let mut all = Vec::new();
     for path in SOURCES.iter().flat_map(|folder| below(&root().join(folder))) {
         let name = path.strip_prefix(root()).expect("inside").to_string_lossy().into_owned();
-        let tests = name.contains("tests") || QUOTING.iter().any(|quoting| name.starts_with(quoting));
-        if !name.ends_with(".rs") || tests {
+        if !name.ends_with(".rs") || name.contains("tests") {
             continue;
         }
         let source = std::fs::read_to_string(&path).expect("a source file");
         let code = source.split("\n#[cfg(test)]\nmod tests {").next().unwrap_or_default();
         let found = literals::literals(code, name.starts_with(SHOWN));
-        all.extend(found.into_iter().map(|(line, text)| Shown { place: format!("{name}:{line}"), text }));
+        let shown = |(line, text)| Shown { place: format!("{name}:{line}"), reach: reach(&name), text };
+        all.extend(found.into_iter().map(shown));
+    }
+    all
+}
+
+/// The comments of all source files, each with all of its lines.
+fn comments_of_the_source() -> Vec<Shown> {
+    let mut all = Vec::new();
+    for path in COMMENTED.iter().flat_map(|folder| below(&root().join(folder))) {
+        let name = path.strip_prefix(root()).expect("inside").to_string_lossy().into_owned();
+        let excepted = EXAMPLES.iter().any(|examples| name.starts_with(examples)) || name.contains("/target/");
+        if excepted || !name.ends_with(".rs") {
+            continue;
+        }
+        let source = std::fs::read_to_string(&path).expect("a source file");
+        let found = literals::comments(&source).into_iter();
+        let reach = Reach::Everywhere;
+        all.extend(found.map(|(line, text)| Shown { place: format!("{name}:{line}"), reach, text }));
     }
     all
 }
@@ -67,14 +104,15 @@ fn texts_of_the_pages() -> Vec<Shown> {
     let mut all = Vec::new();
     for path in pages.into_iter().filter(|p| p.extension().is_some_and(|e| e == "md")) {
         let name = path.strip_prefix(root()).expect("inside").to_string_lossy().into_owned();
-        if QUOTING.contains(&&*name) {
+        if name == PAGE {
             continue;
         }
         let mut code = false;
         for (number, line) in std::fs::read_to_string(&path).expect("a page").lines().enumerate() {
             code ^= line.trim_start().starts_with("```");
             if !code {
-                all.push(Shown { place: format!("{name}:{}", number + 1), text: line.to_owned() });
+                let place = format!("{name}:{}", number + 1);
+                all.push(Shown { place, reach: reach(&name), text: line.to_owned() });
             }
         }
     }
@@ -83,21 +121,29 @@ fn texts_of_the_pages() -> Vec<Shown> {
 
 /// A word that is not used, and the one in its place.
 struct Term {
+    /// Where it is not used.
+    reach: Reach,
     not: String,
     instead: String,
 }
 
-/// The table of the page.
+/// The tables of the page.
 fn terms() -> Vec<Term> {
-    let page = std::fs::read_to_string(root().join("docs/terms.md")).expect("the page");
-    let rows = page.lines().filter(|l| l.starts_with("| ")).skip(1);
+    let page = std::fs::read_to_string(root().join(PAGE)).expect("the page");
+    let (everywhere, for_users) = page.split_once("\n## In texts for users\n").expect("two tables");
+    let all = [(Reach::Everywhere, everywhere), (Reach::ForUsers, for_users)];
+    all.into_iter().flat_map(|(reach, part)| terms_of(reach, part)).collect()
+}
+
+fn terms_of(reach: Reach, part: &str) -> Vec<Term> {
+    let rows = part.lines().filter(|l| l.starts_with("| ")).skip(1);
     rows.flat_map(|row| {
         let cells: Vec<&str> = row.trim_matches('|').split(" | ").map(str::trim).collect();
         let [instead, _, not] = cells.as_slice() else { panic!("{row}: three cells") };
         // A comma at the start belongs to the word.
         let (first, rest) = not.split_at(usize::from(not.starts_with(',')));
         let words = rest.split(", ").map(move |word| format!("{first}{word}"));
-        words.map(|not| Term { not: not.to_lowercase(), instead: (*instead).to_owned() }).collect::<Vec<_>>()
+        words.map(|not| Term { reach, not: not.to_lowercase(), instead: (*instead).to_owned() }).collect::<Vec<_>>()
     })
     .collect()
 }
@@ -125,12 +171,15 @@ fn has(text: &str, word: &str) -> bool {
 fn no_text_has_a_word_that_the_terms_rule_out() {
     let terms = terms();
     assert!(terms.len() > 30, "the table is read: {}", terms.len());
-    let (program, pages) = (texts_of_the_program(), texts_of_the_pages());
-    assert!(program.len() > 2000 && pages.len() > 500, "texts are seen: {} and {}", program.len(), pages.len());
+    let (program, pages, comments) = (texts_of_the_program(), texts_of_the_pages(), comments_of_the_source());
+    let counts = [program.len(), pages.len(), comments.len()];
+    assert!(counts[0] > 2000 && counts[1] > 500 && counts[2] > 5000, "texts are seen: {counts:?}");
     let mut found = Vec::new();
-    for shown in program.iter().chain(&pages).filter(|shown| !KEPT.contains(&&*shown.text)) {
+    let all = program.iter().chain(&pages).chain(&comments);
+    for shown in all.filter(|shown| !KEPT.contains(&&*shown.text)) {
         let text = plain(&shown.text);
-        for term in terms.iter().filter(|term| has(&text, &term.not)) {
+        let ruled_out = |term: &&Term| term.reach == Reach::Everywhere || shown.reach == Reach::ForUsers;
+        for term in terms.iter().filter(ruled_out).filter(|term| has(&text, &term.not)) {
             found.push(format!("{}: `{}` (use: {}): {}", shown.place, term.not, term.instead, shown.text.trim()));
         }
     }

@@ -1,4 +1,4 @@
-//! `compare`: every applicable method on one channel, side by side; and what so many of them agree on.
+//! `compare`: every applicable method on one channel, side by side; and the samples that enough of them agree on.
 
 use std::io::Write;
 use std::sync::Arc;

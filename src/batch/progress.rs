@@ -21,7 +21,7 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    /// For so many items.
+    /// For this many items.
     pub(super) fn new(items: usize, quiet: bool) -> Self {
         let template = if items > 1 { "[{bar:30}] {pos} of {len}, {eta} left" } else { "working, {elapsed}" };
         let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());

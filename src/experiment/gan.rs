@@ -2,7 +2,7 @@
 
 use super::record::{Record, Signal, Wild};
 use super::reproduction::{Cell, Figures, Finding, Runs, Table};
-use super::shown::{Picture, show};
+use super::shown::{Picture, Shown, show};
 use super::trial::{Keys, Trial, setup};
 use super::{Experiment, Published, Random};
 use crate::error::Result;
@@ -23,7 +23,7 @@ pub const EXPERIMENT: Experiment = Experiment {
                    and one outlier of 100 m at 48 s.",
         trial,
         conclude,
-        pictures: |record| show(record, &PICTURES),
+        pictures,
         charts: super::no_charts,
     }),
 };
@@ -31,19 +31,31 @@ pub const EXPERIMENT: Experiment = Experiment {
 /// The figures of the document.
 const PICTURES: [Picture; 3] = [
     Picture {
-        title: "Figures 1 and 2: the outliers found",
+        title: "Figures 1 and 2: the track with the outliers, and without them",
         method: "kalman",
         preset: Preset::Paper,
         keys: &[("patch", "1000")],
     },
     Picture {
-        title: "Figure 3: the patch filled by the spline and filtered again",
+        title: "Figure 3: the patch filled by the spline and filtered again, with the filtered track",
         method: "kalman",
         preset: Preset::Paper,
         keys: &[],
     },
-    Picture { title: "The same with the defaults", method: "kalman", preset: Preset::Default, keys: &[] },
+    Picture {
+        title: "Figure 3 with the defaults: the patch filled by the polynomial",
+        method: "kalman",
+        preset: Preset::Default,
+        keys: &[],
+    },
 ];
+
+/// Figure 3 is of the track that the filter makes of the filled samples.
+fn pictures(record: &Record) -> Result<Vec<Shown>> {
+    let mut shown = show(record, &PICTURES)?;
+    shown.iter_mut().skip(1).try_for_each(Shown::filter)?;
+    Ok(shown)
+}
 
 const SAMPLES: usize = 500;
 const INTERVAL: f64 = 0.1;

@@ -25,7 +25,7 @@ pub struct Plan {
     pub sigma: Option<f64>,
 }
 
-/// So many samples, or such a part of them.
+/// This many samples, or such a part of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Amount {
     /// `20`.
@@ -34,7 +34,7 @@ pub enum Amount {
     Part(f64),
 }
 
-/// So many patches of `shortest..longest` samples each: `5x3..8`.
+/// This many patches of `shortest..longest` samples each: `5x3..8`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Patches {
     /// How many.
@@ -59,7 +59,7 @@ pub struct Span {
 pub struct Step {
     /// Its size, up or down.
     pub size: f64,
-    /// The first sample at or after so many seconds from the start of the record has it; a random one when none.
+    /// The first sample at or after this many seconds from the start of the record has it; a random one when none.
     pub at: Option<f64>,
 }
 

@@ -39,7 +39,7 @@ const BOTH: [Compared; 2] = [
         method: ALONE,
         figure: "figure 2",
         said: "the tail of the signal cut, hardly an outlier found",
-        title: "Figure 2: Wright alone",
+        title: "Figures 1 and 2: Wright alone",
     },
     Compared {
         method: TREND,
@@ -81,7 +81,7 @@ const FOUND: usize = 0;
 const FALSE: usize = 1;
 const CUT: usize = 2;
 
-/// The trend and Wright's criterion with so many passes.
+/// The trend and Wright's criterion with this many passes.
 const PASSES: [(&str, &str); 4] = [("1 pass", "1"), ("2 passes", "2"), ("3 passes", "3"), ("until nothing new", "0")];
 
 #[expect(clippy::cast_precision_loss, reason = "counts of a thousand samples")]

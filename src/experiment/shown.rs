@@ -2,9 +2,11 @@
 
 use super::record::Record;
 use super::trial::{Keys, Trial, setup};
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::method::Filtered;
 use crate::session::{Outcome, Preset};
-use crate::track::{Samples, Track};
+use crate::stop::Stop;
+use crate::track::{Samples, Series, Track};
 
 /// A result that is drawn.
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +32,25 @@ pub struct Shown {
     pub samples: Samples,
     /// What came out.
     pub outcome: Outcome,
+    /// The filtered track, where the document's figure shows it.
+    pub filtered: Option<Filtered>,
+}
+
+impl Shown {
+    /// Adds the filtered track.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] when the method has no model of the track.
+    pub fn filter(&mut self) -> Result<()> {
+        self.filtered = Some(filtered(&self.outcome, &self.samples.series(&self.track.channels[0], &self.track.time))?);
+        Ok(())
+    }
+}
+
+/// The filtered track of a result.
+pub(super) fn filtered(outcome: &Outcome, series: &Series<'_>) -> Result<Filtered> {
+    let none = || Error::usage("no model of the track", "this is a fault of the program: report it");
+    crate::analysis::filtered(outcome, series, &Stop::never())?.ok_or_else(none)
 }
 
 /// Curves in one frame.

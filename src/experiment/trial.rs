@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::record::{Record, Wild};
-use super::shown::Shown;
+use super::shown::{self, Shown};
 use crate::error::{Error, Result};
 use crate::method::shared::FLOOR;
 use crate::review::Decisions;
@@ -79,7 +79,7 @@ impl<'a> Trial<'a> {
     /// The record with a result on it, to be drawn.
     #[must_use]
     pub fn shown(self, title: &'static str, outcome: Outcome) -> Shown {
-        Shown { title, track: self.track, samples: self.samples, outcome }
+        Shown { title, track: self.track, samples: self.samples, outcome, filtered: None }
     }
 
     /// Judges and repairs the first channel. A method that needs a rate gets the second signal.
@@ -103,9 +103,7 @@ impl<'a> Trial<'a> {
     /// # Errors
     /// [`Error::Usage`] when its method has no model of the track.
     pub fn filtered(&self, outcome: &Outcome) -> Result<Vec<f64>> {
-        let filtered = crate::analysis::filtered(outcome, &self.series(), &Stop::never())?;
-        let none = || Error::usage("no model of the track", "this is a fault of the program: report it");
-        filtered.map(|filtered| filtered.value).ok_or_else(none)
+        Ok(shown::filtered(outcome, &self.series())?.value)
     }
 
     /// What `outcome` found.

@@ -35,7 +35,7 @@ pub struct Trace<'a> {
     pub repaired: Option<Curve<'a>>,
     /// The filtered track.
     pub filtered: Option<Curve<'a>>,
-    /// Neighbours further apart than so many seconds are not joined; infinity joins all.
+    /// Neighbours further apart than this many seconds are not joined; infinity joins all.
     pub gap: f64,
 }
 

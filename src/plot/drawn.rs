@@ -188,8 +188,8 @@ impl Drawn {
         Ok(Samples { changed: changed.map(|(_, blocks)| blocks), hidden, pyramids })
     }
 
-    /// The blocks in which an outlier, or what takes its place, is another than in `outcome`; none when there are so
-    /// many that starting from nothing is as quick.
+    /// The blocks in which an outlier, or what takes its place, is another than in `outcome`; none when there are
+    /// too many, so that starting from nothing is as quick.
     fn changed_to(&self, outcome: &Outcome) -> Option<Vec<Range<usize>>> {
         let (old, new) = (&self.outcome, outcome);
         // Of a short record even all of them are few.

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::math::pieces::PIECE;
 use crate::stop::{Stop, Stopped};
 
-/// Bins between the edges: so many that columns made of them differ by a percent or two in width.
+/// Bins between the edges: enough that columns made of them differ by a percent or two in width.
 const BINS: usize = 8192;
 
 /// Samples that one thread counts at a time.

@@ -10,7 +10,7 @@ pub(crate) const DOTS_PER_ROW: usize = 4;
 /// Share of the range left free above and below a fitted curve.
 const MARGIN: f64 = 0.04;
 
-/// At most so many samples are sorted for the robust range, taken at equal distances.
+/// At most this many samples are sorted for the robust range, taken at equal distances.
 const ROBUST_SAMPLES: usize = 1 << 14;
 
 /// How the y range follows the data.

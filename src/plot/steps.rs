@@ -27,7 +27,7 @@ pub struct StepColumn {
     pub span: Span,
     /// True when samples are lost in one of the steps.
     pub lost: bool,
-    /// True when so many are that the record is cut there.
+    /// True when there are enough of them that the record is cut there.
     pub cut: bool,
     /// True when rows without a usable time stand in the column.
     pub fault: bool,

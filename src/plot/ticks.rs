@@ -46,7 +46,7 @@ pub fn ticks(view: View, step: f64, phase: f64, most: u16) -> Vec<f64> {
     (0..most).map(x).take_while(|x| *x <= view.to).collect()
 }
 
-/// How times are labelled on an axis of so many columns.
+/// How times are labelled on an axis of this many columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeTicks {
     /// Which steps are round.

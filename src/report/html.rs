@@ -145,7 +145,7 @@ fn figures(section: &Section, out: &mut String) {
             escaped(&figure.caption)
         );
         if i == 2 {
-            legend(out);
+            legend(section.filtered, out);
         }
     }
     if small {
@@ -168,16 +168,20 @@ pub(super) fn labelled(svg: &str, caption: &str) -> String {
     svg.replacen(r#"role="img""#, &format!(r#"role="img" aria-label="{}""#, escaped(caption)), 1)
 }
 
-/// What the marks of pictures mean.
-pub(super) fn legend(out: &mut String) {
+/// What the marks of pictures mean; `filtered` where some show the filtered track.
+pub(super) fn legend(filtered: bool, out: &mut String) {
     out.push_str("<p class=\"legend\">");
     for (_, class, shape, words) in STATES {
         let _ = write!(out, "<span><i class=\"{class}\">{shape}</i> {words}</span> ");
     }
     out.push_str(
         "<span><i class=\"repaired\">+</i> repaired</span> <span><i class=\"expected\">—</i> expected and tolerance\
-         </span> <span><i class=\"gap\">▒</i> lost samples</span></p>\n",
+         </span> <span><i class=\"gap\">▒</i> lost samples</span>",
     );
+    if filtered {
+        out.push_str(" <span><i class=\"filtered\">—</i> filtered track</span>");
+    }
+    out.push_str("</p>\n");
 }
 
 fn table(table: &Table, out: &mut String) {

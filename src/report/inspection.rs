@@ -66,7 +66,7 @@ pub struct ColumnFacts {
     pub unit: String,
     /// Cells without a value.
     pub missing: usize,
-    /// Why it is no channel, for a column of numbers that is none.
+    /// Why it is not a channel, for a column of numbers that is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<&'static str>,
 }

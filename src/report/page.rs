@@ -16,6 +16,7 @@ mod flagged;
 mod measured;
 mod record;
 
+pub(super) use citations::numbered;
 pub(super) use measured::Compared;
 
 /// A session text longer than this is not put into a report.
@@ -67,6 +68,8 @@ pub(super) struct Section {
     pub(super) compared: Option<Compared>,
     /// The pictures.
     pub(super) figures: Vec<Figure>,
+    /// True where they show the filtered track.
+    pub(super) filtered: bool,
     /// How many of the runs are shown close up; empty when all are.
     pub(super) close: String,
     /// Flags and decisions with their evidence.
@@ -119,7 +122,13 @@ impl Page {
         let sections = sections.map(|((plan, summary), flags)| {
             let (index, samples, outcome) = &analysed.channels[plan];
             let beside = byline.flags.as_deref();
-            channel::section(track, &session.plans[plan], (*index, samples, outcome), summary, (flags, beside))
+            channel::section(
+                track,
+                (&session.plans[plan], session.value),
+                (*index, samples, outcome),
+                summary,
+                (flags, beside),
+            )
         });
         // Of a session beside its record, the path begins with `./`.
         let mut said = session.clone();

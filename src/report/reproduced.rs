@@ -4,6 +4,7 @@
 use std::fmt::Write as _;
 
 use super::html::{POLICY, STYLE, escaped, labelled, legend};
+use super::page::numbered;
 use super::svg::{self, CURVES};
 use crate::experiment::{Cell, Chart, Finding, Held, Reproduction, Shown, Table};
 
@@ -37,8 +38,14 @@ pub fn reproduced_html(experiments: &[Reproduced]) -> String {
             }
             let all = experiments.iter().filter(|e| document_of(e.result.source) == of);
             let counts = counted(all.flat_map(|e| &e.result.findings));
-            let _ =
-                writeln!(out, "<section class=\"document\">\n<h2>{}</h2>\n<p>{}</p>", escaped(of), escaped(&counts));
+            let cited: String = numbered(of).map(|(_, document)| document).collect();
+            let _ = writeln!(
+                out,
+                "<section class=\"document\">\n<h2>{}</h2>\n<p class=\"advice\">{}</p>\n<p>{}</p>",
+                escaped(of),
+                escaped(&cited),
+                escaped(&counts)
+            );
             document = of;
         }
         section(experiment, &mut out);
@@ -89,7 +96,7 @@ fn section(experiment: &Reproduced, out: &mut String) {
         return;
     }
     let _ = writeln!(out, "<h3>Figures, from the run with seed {}</h3>", result.seed);
-    legend(out);
+    legend(experiment.shown.iter().any(|shown| shown.filtered.is_some()), out);
     experiment.shown.iter().for_each(|one| pictures(one, out));
 }
 
@@ -148,7 +155,7 @@ fn pictures(shown: &Shown, out: &mut String) {
     let _ = writeln!(out, "<h3>{}</h3>", escaped(shown.title));
     let Some(channel) = shown.track.channels.first() else { return };
     let series = shown.samples.series(channel, &shown.track.time);
-    let pictures = svg::figures(&shown.track, channel, series, &shown.outcome);
+    let pictures = svg::figures(&shown.track, channel, series, &shown.outcome, shown.filtered.as_ref());
     pictures
         .figures
         .iter()

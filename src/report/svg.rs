@@ -1,7 +1,8 @@
 //! Pictures of a channel in SVG, from the same columns as those of the screen: a flag is never hidden.
 
+use crate::method::Filtered;
 use crate::method::shared::MAX_GAP;
-use crate::plot::{Axis, Curve, Drawn, FlagState, Flags, Trace, View};
+use crate::plot::{Axis, Curve, Drawn, FilteredTrack, FlagState, Flags, Span, Trace, View};
 use crate::session::Outcome;
 use crate::stop::Stop;
 use crate::track::{Channel, Series, TimeAxis, Track};
@@ -43,7 +44,8 @@ struct Subject<'a> {
     series: Series<'a>,
     drawn: Drawn,
     flags: Flags,
-    /// Neighbours further apart than so many seconds are not joined.
+    filtered: Option<FilteredTrack>,
+    /// Neighbours further apart than this many seconds are not joined.
     gap: f64,
 }
 
@@ -56,17 +58,25 @@ pub(super) struct Pictures {
     pub(super) close: String,
 }
 
-/// The pictures of a channel.
-pub(super) fn figures(track: &Track, channel: &Channel, series: Series<'_>, outcome: &Outcome) -> Pictures {
+/// The pictures of a channel, with its filtered track where it is given.
+pub(super) fn figures(
+    track: &Track,
+    channel: &Channel,
+    series: Series<'_>,
+    outcome: &Outcome,
+    filtered: Option<&Filtered>,
+) -> Pictures {
     if series.is_empty() {
         return Pictures::default();
     }
     // Nobody stops it.
     let Ok(drawn) = Drawn::new(outcome.clone(), &series, None, &Stop::never()) else { return Pictures::default() };
     let flags = Flags::new(&drawn.flags(&series));
+    let filtered = filtered.and_then(|values| FilteredTrack::new(values.clone(), &Stop::never()).ok());
     let gap = series.longest_step(outcome.detection.setup.settings.whole_or_off(MAX_GAP.key));
     let unit = if channel.unit.is_empty() { String::new() } else { format!(" [{}]", channel.unit) };
-    let subject = Subject { time: &track.time, channel: format!("{}{unit}", channel.name), series, drawn, flags, gap };
+    let channel = format!("{}{unit}", channel.name);
+    let subject = Subject { time: &track.time, channel, series, drawn, flags, filtered, gap };
     let mut figures = vec![
         picture::overview(&subject),
         picture::trace(&subject),
@@ -95,6 +105,7 @@ impl Subject<'_> {
         let expected = |i: usize| d.expected_span(i);
         let band = |i: usize| d.band_span(i);
         let repaired = |i: usize| d.repaired_span(i);
+        let smooth = |i: usize| self.filtered.as_ref().map_or(Span::EMPTY, |track| track.span(i));
         with(&Trace {
             axis: self.axis(),
             kept: Curve { pyramid: &d.kept, span: &kept },
@@ -102,7 +113,7 @@ impl Subject<'_> {
             expected: Some(Curve { pyramid: &d.expected, span: &expected }),
             band: Some(Curve { pyramid: &d.band, span: &band }),
             repaired: Some(Curve { pyramid: &d.repaired, span: &repaired }),
-            filtered: None,
+            filtered: self.filtered.as_ref().map(|track| Curve { pyramid: &track.pyramid, span: &smooth }),
             gap: self.gap,
         })
     }

@@ -1,4 +1,4 @@
-//! Advice beside the active knob, found on a thread of its own: what one step either way changes, and the counts
+//! Advice beside the active parameter, found on a thread of its own: what one step either way changes, and the counts
 //! along the multiplier.
 
 use std::sync::Arc;
@@ -46,7 +46,7 @@ impl Advice {
     }
 }
 
-/// What to find out: what one step of the active knob changes, and the sweep where it is wanted.
+/// What to find out: what one step of the active parameter changes, and the sweep where it is wanted.
 #[derive(Debug)]
 pub struct Advise {
     steps: Option<(StepsJob, Arc<Detection>)>,
@@ -82,7 +82,7 @@ impl Advise {
         self.steps.is_some()
     }
 
-    /// What one step either way changes; none where the active knob has no bearing on the flags.
+    /// What one step either way changes; none where the active parameter has no bearing on the flags.
     ///
     /// # Errors
     /// [`Error::Stopped`], and what the method cannot do under the settings.

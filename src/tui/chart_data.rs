@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use super::model::{ChannelState, Model, YMode};
 use super::plot::{Axis, Columns, Curve, Flags, Grid, Layers, Memo, Pyramid, Span, Trace, View, YFit};
-use super::smoothing::FilteredTrack;
 use crate::method::shared::MAX_GAP;
-use crate::plot::{Drawn, StepColumn, Steps};
+use crate::plot::{Drawn, FilteredTrack, StepColumn, Steps};
 use crate::score::Score;
 use crate::track::Series;
 

@@ -58,7 +58,7 @@ impl Request {
 /// Work with files that is asked for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Task {
-    /// List a folder; of a file, say that it is one.
+    /// List a folder; report that a file is one.
     List(PathBuf),
     /// Look into a file.
     Look(Glance),

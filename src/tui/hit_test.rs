@@ -31,7 +31,7 @@ pub(super) enum Spot {
     Second(f64, Option<usize>),
     /// The queue; with the index of the flag.
     Queue(Option<u32>),
-    /// The parameters; with the index of the knob.
+    /// The parameters; with the index of the parameter.
     Parameters(Option<usize>),
     /// The card.
     Card,

@@ -36,7 +36,7 @@ pub struct Judge {
     previous: Option<Arc<Drawn>>,
     /// All channels that are judged together with this one, itself among them; empty when it is judged alone.
     together: Vec<Together>,
-    /// What one step of the active knob changes, where that is to come with the result.
+    /// What one step of the active parameter changes, where that is to come with the result.
     steps: Option<Box<StepsJob>>,
 }
 
@@ -56,8 +56,8 @@ impl Together {
     }
 }
 
-/// Samples up to which a result comes with what a step of the active knob changes: one frame tells all then. It takes
-/// two more judgements, which is nothing on a record of that length.
+/// Samples up to which a result comes with what a step of the active parameter changes: one frame tells all then. It
+/// takes two more judgements, which is nothing on a record of that length.
 const SHORT: usize = 20_000;
 
 impl Judge {
@@ -94,7 +94,7 @@ impl Judge {
         }
     }
 
-    /// The same with what a step of the active knob changes, on a record that is short.
+    /// The same with what a step of the active parameter changes, on a record that is short.
     #[must_use]
     pub fn with_steps(self, model: &Model) -> Self {
         let short = model.channels[self.plan].drawn.as_ref().is_some_and(|d| d.hidden.len() <= SHORT);

@@ -43,7 +43,7 @@ pub enum Message {
         /// The counts, and what they were found for.
         advice: Box<Advice>,
     },
-    /// So many methods have answered about a channel.
+    /// This many methods have answered about a channel.
     Polling {
         /// The job it answers.
         generation: u64,
@@ -79,7 +79,7 @@ pub enum Message {
         /// What came out.
         summary: Result<Arc<ChannelSummary>>,
     },
-    /// What one step of the active knob of a channel changes is known.
+    /// What one step of the active parameter of a channel changes is known.
     Stepped {
         /// Index of the plan.
         plan: usize,
@@ -240,8 +240,8 @@ pub enum Fate {
 pub enum Effect {
     /// Judge the channel of this plan under the session as it is now.
     Analyse(usize),
-    /// Find what a step of the active knob of this plan changes and, where they are not known, the counts along its
-    /// multiplier, when nothing else is to do.
+    /// Find what a step of the active parameter of this plan changes and, where they are not known, the counts along
+    /// its multiplier, when nothing else is to do.
     Advise(usize),
     /// Ask all methods about the channel of this plan.
     Poll(usize),

@@ -326,7 +326,7 @@ impl Model {
         self.revision != self.saved_revision
     }
 
-    /// The knobs that matter now, in the order of the panel.
+    /// The parameters that matter now, in the order of the panel.
     #[must_use]
     pub fn knobs(&self) -> Vec<Knob> {
         self.knobs_of(self.shown)
@@ -350,21 +350,21 @@ impl Model {
         knobs
     }
 
-    /// The active knob.
+    /// The active parameter.
     #[must_use]
     pub fn knob(&self) -> Knob {
         self.knob_of(self.shown)
     }
 
-    /// The active knob of a plan.
+    /// The active parameter of a plan.
     #[must_use]
     pub fn knob_of(&self, plan: usize) -> Knob {
         let knobs = self.knobs_of(plan);
         knobs.get(self.channels[plan].knob).or(knobs.last()).copied().unwrap_or(Knob::Method)
     }
 
-    /// What one step of the active knob of the channel on the screen changes from the result on the screen, if that is
-    /// known.
+    /// What one step of the active parameter of the channel on the screen changes from the result on the screen, if
+    /// that is known.
     #[must_use]
     pub fn steps(&self) -> Option<&Steps> {
         let state = self.state();
@@ -420,7 +420,7 @@ impl Knob {
         }
     }
 
-    /// True where a group of knobs begins.
+    /// True where a group of parameters begins.
     #[must_use]
     pub fn begins_group(self) -> bool {
         matches!(self, Self::Method | Self::Check(..)) || self.name() == "repair"

@@ -7,10 +7,9 @@ use crossbeam_channel::Sender;
 
 use super::message::Message;
 use super::model::Model;
-use super::plot::{Pyramid, Span};
 use crate::error::Result;
 use crate::job::Worker;
-use crate::method::Filtered;
+use crate::plot::FilteredTrack;
 use crate::score::{SplineResidual, spline_residual};
 use crate::session::Outcome;
 use crate::stop::Stop;
@@ -36,37 +35,6 @@ pub struct Smoothed {
     pub residual: Option<SplineResidual>,
     /// The filtered track; none where it was not asked for, or the method has no model.
     pub track: Option<Arc<FilteredTrack>>,
-}
-
-/// The filtered values, ready for drawing.
-#[derive(Debug)]
-pub struct FilteredTrack {
-    /// The values and their deviations.
-    pub values: Filtered,
-    /// Their extremes.
-    pub pyramid: Pyramid,
-}
-
-impl FilteredTrack {
-    /// Arranges the values.
-    ///
-    /// # Errors
-    /// [`crate::stop::Stopped`] as soon as nobody waits for it any more.
-    pub fn new(values: Filtered, stop: &Stop) -> std::result::Result<Self, crate::stop::Stopped> {
-        let span = |i: usize| span(&values, i);
-        let pyramid = Pyramid::build_spans_unless(values.value.len(), span, stop)?;
-        Ok(Self { values, pyramid })
-    }
-
-    /// The value of a sample, for drawing.
-    #[must_use]
-    pub fn span(&self, i: usize) -> Span {
-        span(&self.values, i)
-    }
-}
-
-fn span(values: &Filtered, i: usize) -> Span {
-    values.value.get(i).copied().filter(|value| value.is_finite()).map_or(Span::EMPTY, Span::at)
 }
 
 impl Question {

@@ -30,12 +30,12 @@ pub struct ChannelSummary {
     pub counts: Counts,
     /// How many flags there are in each state, by [`FlagState::index`].
     pub by_state: [usize; FlagState::ALL.len()],
-    /// The largest distance of a sample that nobody has decided on from what is expected, in tolerances; none where no
+    /// The largest distance of an undecided sample from what is expected, in tolerances; none where no
     /// such sample is flagged or suspect.
     pub worst: Option<f64>,
     /// The record in a few columns.
     pub sparkline: Sparkline,
-    /// Rows (from 0) of the outliers that nobody has decided on.
+    /// Rows (from 0) of the undecided outliers.
     pub undecided: Vec<u32>,
 }
 

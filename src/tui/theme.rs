@@ -49,7 +49,7 @@ pub struct Theme {
     pub repaired: Style,
     /// The filtered track.
     pub filtered: Style,
-    /// A flag nobody has decided on.
+    /// An undecided flag.
     pub flag_unreviewed: Style,
     /// A flag accepted as an outlier.
     pub flag_accepted: Style,

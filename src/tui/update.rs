@@ -365,7 +365,7 @@ fn back(model: &mut Model) -> Vec<Effect> {
     Vec::new()
 }
 
-/// What opens when the value of a knob is to be chosen from a list.
+/// What opens when the value of a parameter is to be chosen from a list.
 pub(super) fn list_of(knob: Knob) -> Option<PickerKind> {
     match knob {
         Knob::Method => Some(PickerKind::Method),

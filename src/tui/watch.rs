@@ -12,7 +12,7 @@ use crate::track::{Standing, Track};
 /// How often the file is looked at.
 const PERIOD: Duration = Duration::from_secs(1);
 
-/// So many times as long as the last look into the file took, none is taken: a large record that grows steadily does
+/// This many times as long as the last look into the file took, none is taken: a large record that grows steadily does
 /// not keep a core busy.
 const REST: u32 = 20;
 

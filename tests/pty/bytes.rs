@@ -12,7 +12,7 @@ fn bytes_for(terminal: &mut Terminal, keys: &str, shown: &str) -> usize {
     terminal.bytes() - before
 }
 
-/// Below the trace, the workbench says what a step of the knob changes, and nothing more is to come.
+/// Below the trace, the workbench says what a step of the parameter changes, and nothing more is to come.
 fn advised(terminal: &Terminal, size: (u16, u16)) {
     terminal.wait_for(if size == WIDE { "f sets k" } else { "↓+" });
 }

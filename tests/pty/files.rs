@@ -45,7 +45,7 @@ fn another_record_is_picked_tuned_and_reported_on() {
     terminal.wait_for("wrote out.html: report");
     let report = folder.text("out.html");
     assert!(report.contains("<h1>other.csv</h1>") && report.contains("k=6.0"));
-    // The knob was turned and nothing saved: another record is asked about, and the answer saves first.
+    // The parameter was turned and nothing saved: another record is asked about, and the answer saves first.
     terminal.keys(":open demo.csv\r");
     terminal.wait_for("open demo.csv");
     terminal.keys("w");

@@ -6,7 +6,7 @@ use rustix::process::{Pid, Resource, Rlimit, prlimit};
 use super::journal::{Desk, overlay};
 use super::terminal::{Terminal, title};
 
-/// Lets the program's files grow up to so many bytes, or without a limit.
+/// Lets the program's files grow up to this many bytes, or without a limit.
 fn limit_files(terminal: &Terminal, bytes: Option<u64>) {
     let pid = Pid::from_raw(terminal.pid().try_into().unwrap());
     prlimit(pid, Resource::Fsize, Rlimit { current: bytes, maximum: None }).unwrap();

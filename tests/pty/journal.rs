@@ -40,7 +40,7 @@ impl Desk {
         entries.map(|e| e.unwrap().path()).collect()
     }
 
-    /// Waits until there are so many journals: they change beside the screen.
+    /// Waits until there are this many journals: they change beside the screen.
     pub(super) fn wait_for_journals(&self, wanted: usize) {
         let deadline = Instant::now() + Duration::from_secs(20);
         while self.journals().len() != wanted {

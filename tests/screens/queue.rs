@@ -1,4 +1,4 @@
-//! The queue beside a knob that turns: what is in sight stays where it is.
+//! The queue beside a parameter that turns: what is in sight stays where it is.
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use wildpoint::tui::message::{Effect, Message};

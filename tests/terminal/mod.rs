@@ -184,12 +184,12 @@ impl Terminal {
         assert!(sent.success());
     }
 
-    /// Waits until a whole frame has come after so many bytes.
+    /// Waits until a whole frame has come after this many bytes.
     pub(crate) fn wait_more(&self, than: usize) {
         self.wait("a frame", |seen| (seen.raw.len() > than && seen.raw.ends_with(FRAME_END)).then_some(()));
     }
 
-    /// Waits until a whole frame has come after so many bytes, or the program has ended.
+    /// Waits until a whole frame has come after this many bytes, or the program has ended.
     pub(crate) fn wait_more_or_end(&self, than: usize) {
         let deadline = Instant::now() + PATIENCE;
         let mut seen = self.seen.0.lock().unwrap();

@@ -34,6 +34,22 @@ pub(crate) fn literals(code: &str, shown: bool) -> Vec<(usize, String)> {
     found
 }
 
+/// The comments of Rust code with the lines on which they begin; lines that follow each other are one.
+pub(crate) fn comments(code: &str) -> Vec<(usize, String)> {
+    let mut found: Vec<(usize, String)> = Vec::new();
+    let mut last = 0;
+    for (number, line) in (1..).zip(code.lines()) {
+        let Some(text) = line.trim_start().strip_prefix("//") else { continue };
+        let text = text.trim_start_matches(['/', '!']);
+        match found.last_mut() {
+            Some((_, whole)) if last + 1 == number => *whole = format!("{whole} {text}"),
+            _ => found.push((number, text.to_owned())),
+        }
+        last = number;
+    }
+    found
+}
+
 /// The length of a character literal; none for a lifetime.
 fn character(text: &str) -> Option<usize> {
     let inside = text.strip_prefix('\'')?;
@@ -83,4 +99,10 @@ fn strings_and_shown_comments_are_found() {
         [(2, " Shown  here. ".to_owned()), (3, "one two".to_owned()), (5, "a \"b\"".to_owned())]
     );
     assert_eq!(literals(code, false).len(), 2);
+}
+
+#[test]
+fn lines_of_a_comment_are_read_together() {
+    let code = "//! One\n//! two.\n\nlet a = 1;\n    // three\n    // four\n    let b = \"// no\";\n";
+    assert_eq!(comments(code), [(1, " One  two.".to_owned()), (5, " three  four".to_owned())]);
 }

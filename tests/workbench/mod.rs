@@ -70,8 +70,8 @@ impl Bench {
         }
     }
 
-    /// What a step of the active knob changes is there at once. The sweep comes when nothing else is to do: not in a
-    /// still frame.
+    /// What a step of the active parameter changes is there at once. The sweep comes when nothing else is to do: not in
+    /// a still frame.
     fn advise(&mut self, plan: usize) {
         if let Some(steps) = Advise::new(&self.0, plan).steps(&Stop::never()).unwrap() {
             update(&mut self.0, Message::Stepped { plan, steps: Box::new(steps) });

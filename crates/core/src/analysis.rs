@@ -86,7 +86,7 @@ pub struct Input<'a> {
 }
 
 impl<'a> Input<'a> {
-    /// A channel without companions that nobody decided on.
+    /// A channel without companions that is undecided.
     #[must_use]
     pub fn new(series: &'a Series<'a>, rate: Option<&'a Series<'a>>) -> Self {
         Self { series, rate, companions: &[], decisions: None }
@@ -497,7 +497,7 @@ impl Settled {
     }
 }
 
-/// So many verdicts at a time are counted in a byte each, which is as quick as reading them.
+/// This many verdicts at a time are counted in a byte each, which is as quick as reading them.
 const STRIDE: usize = 64;
 
 /// How many of at most 255 verdicts are wanted.
@@ -520,7 +520,7 @@ fn marks(
         if first.is_multiple_of(PIECE) {
             stop.check()?;
         }
-        // Most samples are normal and nobody decided on them.
+        // Most samples are normal and undecided.
         if holds(part, flags) == 0 && decided.peek().is_none_or(|d| d.0 >= first + part.len()) {
             continue;
         }

@@ -10,14 +10,14 @@ use crate::method::{Method, Verdict};
 use crate::setup::{Preset, Setup};
 use crate::stop::{Stop, Stopped};
 
-/// How many samples so many methods flag.
+/// How many samples this many methods flag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Agreement {
     /// Number of methods.
     pub methods: usize,
-    /// Samples that exactly so many flag.
+    /// Samples that exactly this many flag.
     pub exactly: usize,
-    /// Samples that so many or more flag.
+    /// Samples that this many or more flag.
     pub at_least: usize,
 }
 
@@ -51,7 +51,7 @@ pub fn candidates(
 }
 
 impl Ballot {
-    /// No votes yet on so many samples.
+    /// No votes yet on this many samples.
     #[must_use]
     pub fn new(samples: usize) -> Self {
         Self { flagged: vec![0; samples], suspected: vec![0; samples], checked: vec![0; samples], voters: Vec::new() }
@@ -137,7 +137,7 @@ impl Ballot {
         self.methods().div_ceil(2).max(1)
     }
 
-    /// The positions that at least so many methods flag, ascending.
+    /// The positions that at least this many methods flag, ascending.
     ///
     /// # Errors
     /// [`Stopped`] as soon as nobody waits for them any more.
@@ -149,7 +149,7 @@ impl Ballot {
         Ok(pieces::map(self.flagged.len(), &|| stop.check(), agreed)?.concat())
     }
 
-    /// How many samples are flagged by so many methods, from one to all.
+    /// How many samples are flagged by this many methods, from one to all.
     #[must_use]
     pub fn agreement(&self) -> Vec<Agreement> {
         let exactly = |k: usize| self.flagged.iter().filter(|f| usize::from(**f) == k).count();

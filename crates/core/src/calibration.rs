@@ -93,10 +93,10 @@ const MAX_GAP: usize = 5;
 /// Half lengths of the windows of residuals: 21 and 41 samples.
 const WINDOWS: [usize; 2] = [10, 20];
 
-/// Noise is never taken for less than so many deviations of white noise …
+/// Noise is never taken for less than this many deviations of white noise …
 const WHITE: f64 = 4.0;
 
-/// … nor for less than so many steps of the resolution: a single step is rounding.
+/// … nor for less than this many steps of the resolution: a single step is rounding.
 const STEPS: f64 = 1.5;
 
 /// The record as calibration sees it.

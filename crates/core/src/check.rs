@@ -53,7 +53,7 @@ pub fn find(id: &str) -> Result<&'static dyn Check, Error> {
 /// A test of single samples that does not depend on a model of the channel: a pure function from samples and settings
 /// to objections.
 pub trait Check: Sync {
-    /// What it is and which knobs it has.
+    /// What it is and which parameters it has.
     fn about(&self) -> &'static About;
 
     /// What it objects to, by ascending position, each position once.
@@ -79,7 +79,7 @@ pub struct About {
     pub id: &'static str,
     /// One line for lists.
     pub help: &'static str,
-    /// Its knobs.
+    /// Its parameters.
     pub params: &'static [Param],
     /// What `own` repair does with the samples that it fails.
     pub own: Own,

@@ -54,10 +54,10 @@ use round::{Round, Tally};
 pub use tuning::{Budget, Tuned};
 pub use words::{Detected, two_digits};
 
-/// So many wild points of each kind and size are put in, in all rounds together.
+/// This many wild points of each kind and size are put in, in all rounds together.
 const EVENTS: usize = 32;
 
-/// In all rounds together at most so many samples are calibrated: what bounds the time on a short record.
+/// In all rounds together at most this many samples are calibrated: what bounds the time on a short record.
 const MOST_SAMPLES: usize = 1 << 19;
 
 /// Methods on copies of a record that have known wild points in them.
@@ -229,7 +229,7 @@ impl Study {
     }
 }
 
-/// How many rounds it takes until there are [`EVENTS`] of each kind and size, when one has so many `events`.
+/// How many rounds it takes until there are [`EVENTS`] of each kind and size, when one has this many `events`.
 fn rounds(ground: &Ground, events: usize) -> usize {
     let wanted = (EVENTS * ground.wanted.len()).div_ceil(events.max(1));
     wanted.clamp(1, (MOST_SAMPLES / ground.y.len().max(1)).max(1))

@@ -26,7 +26,7 @@ pub struct Full {
 pub struct Share(u64);
 
 impl Share {
-    /// So many bytes.
+    /// This many bytes.
     ///
     /// # Errors
     /// [`Full`] when they would pass the limit.
@@ -35,7 +35,7 @@ impl Share {
         share.set(bytes).map(|()| share)
     }
 
-    /// Makes it so many bytes; where they would pass the limit, it stays what it was.
+    /// Makes it this many bytes; where they would pass the limit, it stays what it was.
     ///
     /// # Errors
     /// [`Full`] when they would.
@@ -51,7 +51,7 @@ impl Share {
         Ok(())
     }
 
-    /// Adds so many bytes.
+    /// Adds this many bytes.
     ///
     /// # Errors
     /// As [`Share::set`].

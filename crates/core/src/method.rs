@@ -157,7 +157,7 @@ fn judge_segment(
 
 /// A way to find wild points: a pure function from the samples of one segment and settings to verdicts.
 pub trait Method: Sync {
-    /// What it is and which knobs it has.
+    /// What it is and which parameters it has.
     fn about(&self) -> &'static About;
 
     /// Judges one segment. The same input gives the same bits, on any number of threads.
@@ -234,7 +234,7 @@ pub trait Method: Sync {
         Vec::new()
     }
 
-    /// What the user should know about these settings: that they cannot flag anything, say. One line each.
+    /// What the user should know about these settings: for example that they cannot flag anything. One line each.
     fn warnings(&self, settings: &Settings) -> Vec<String> {
         let _ = settings;
         Vec::new()
@@ -265,7 +265,7 @@ pub struct About {
     pub source: &'static str,
     /// What it is for, how many samples it wants, what it misses: a few lines.
     pub advice: &'static str,
-    /// Its knobs.
+    /// Its parameters.
     pub params: &'static [Param],
     /// What its `own` repair is, unless it has one of its own.
     pub own: Own,

@@ -1,4 +1,4 @@
-//! A method's knobs, declared once.
+//! A method's parameters, declared once.
 //!
 //! A [`Param`] is a row of plain data: key, help, unit, kind, default, paper value and when it matters. The panel,
 //! `--set`, the session file, validation, `wildpoint methods`, the README table and the contract tests are all
@@ -22,7 +22,7 @@ pub use words::Words;
 /// The unit of parameters that count samples. Whole numbers of them may be given as lengths of time, too.
 pub const SAMPLES: &str = "samples";
 
-/// One knob.
+/// One parameter.
 #[derive(Debug, Clone, Copy)]
 pub struct Param {
     /// The key of `--set`, the session file and the palette.
@@ -180,7 +180,7 @@ impl Param {
         read.filter(|v| self.accepts(*v)).ok_or_else(|| self.refuse(text))
     }
 
-    /// Takes a value of any spelling that means a legal one (a whole number for a real one, say).
+    /// Takes a value of any spelling that means a legal one (for example a whole number for a real one).
     ///
     /// # Errors
     /// [`Error::Usage`] naming the key, the value and the legal values.

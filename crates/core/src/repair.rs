@@ -159,7 +159,7 @@ pub const REPAIR_POINTS: Param = Param {
     matters: |s| s.word(METHOD.key) == "polynomial",
 };
 
-/// The knobs of repair, in the order of the panel and the session file.
+/// The parameters of repair, in the order of the panel and the session file.
 pub static PARAMS: &[Param] = &[METHOD, MAX_FILL, FILL_GAPS, ANCHORS, REPAIR_ORDER, REPAIR_POINTS];
 
 /// The repair with this id.

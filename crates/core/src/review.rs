@@ -74,7 +74,7 @@ impl Decision {
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Decisions(BTreeMap<u32, Decision>);
 
-/// One decision made, changed or taken back; its inverse swaps `before` and `after`.
+/// One decision made, changed or cleared; its inverse swaps `before` and `after`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Change {
     /// Row (from 0) of the sample.
@@ -139,7 +139,7 @@ impl<E: Clone> History<E> {
         self.undone.clear();
     }
 
-    /// The edit to take back, if any.
+    /// The edit to undo, if any.
     pub fn undo(&mut self) -> Option<E> {
         let edit = self.done.pop()?;
         self.undone.push(edit.clone());
@@ -170,7 +170,7 @@ impl<E: Clone> History<E> {
         &self.done
     }
 
-    /// The edits that were taken back, the one that is redone first last.
+    /// The edits that were undone, the one that is redone first last.
     #[must_use]
     pub fn undone(&self) -> &[E] {
         &self.undone

@@ -14,11 +14,11 @@ pub const DEFAULT_METHOD: &str = "two-sided";
 pub struct Setup {
     /// How wild points are found.
     pub method: &'static dyn Method,
-    /// Its knobs.
+    /// Its parameters.
     pub settings: Settings,
     /// Name of the channel that measures the rate, for methods that need one.
     pub rate: Option<String>,
-    /// The knobs of repair, [`repair::PARAMS`].
+    /// The parameters of repair, [`repair::PARAMS`].
     pub repair: Settings,
     /// What is done with the channel before the method sees it.
     pub preparation: Preparation,
@@ -101,7 +101,7 @@ impl Setup {
         }
     }
 
-    /// The same for samples that are so many seconds apart, which durations are counted in.
+    /// The same for samples that are this many seconds apart, which durations are counted in.
     #[must_use]
     pub fn at_interval(&self, seconds: f64) -> Self {
         let mut own = self.clone();

@@ -56,7 +56,7 @@ impl Stop {
         Self(Wanted::While(newest, generation))
     }
 
-    /// Work that is wanted for so many looks and no longer: `left` says how many of them were not taken. With it a
+    /// Work that is wanted for this many looks and no longer: `left` says how many of them were not taken. With it a
     /// test sees how often a computation looks.
     #[must_use]
     pub fn after_looks(left: Arc<AtomicU64>) -> Self {

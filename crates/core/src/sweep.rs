@@ -22,7 +22,7 @@ mod threshold;
 pub use range::{grid, multiplier, numeric, usual_values};
 pub use threshold::{NoSuggestion, Threshold};
 
-/// Values of a sweep when none are named: so many besides the default, from …
+/// Values of a sweep when none are named: this many besides the default, from …
 pub const STEPS: usize = 48;
 /// … this …
 pub const FROM: f64 = 1.0;
@@ -35,7 +35,7 @@ const STILL: f64 = 0.02;
 /// A plateau is at least so long: its last value over its first.
 const LENGTH: f64 = 1.5;
 
-/// Where more than one sample in so many is flagged, the method objects to the record and not to wild points.
+/// Where more than one sample in this many is flagged, the method objects to the record and not to wild points.
 const LARGEST_SHARE: usize = 10;
 
 /// What a method flags with one value of the parameter.

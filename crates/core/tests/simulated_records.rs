@@ -14,7 +14,7 @@ use simulated::KINDS;
 /// Records of each kind.
 const RECORDS: u64 = 20;
 
-/// At most so many samples in a hundred are not judged, in a record of two rates too.
+/// At most this many samples in a hundred are not judged, in a record of two rates too.
 const UNCHECKED: f64 = 1.0;
 
 #[test]

@@ -147,11 +147,11 @@ pub struct Track {
 /// How a text file lays out its cells.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Dialect {
-    /// What stands between two cells.
+    /// The field separator.
     pub delimiter: Delimiter,
     /// The quote character, where cells may be quoted.
     pub quote: Option<u8>,
-    /// True when `1,5` means one and a half.
+    /// True when a comma is the decimal sign.
     pub decimal_comma: bool,
     /// How the bytes encode text.
     pub encoding: Encoding,
@@ -245,7 +245,7 @@ impl RowsAt {
     }
 }
 
-/// What stands between two cells.
+/// The field separator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Delimiter {
     /// One byte: comma, semicolon, tab or pipe.
@@ -319,7 +319,7 @@ impl ColumnKind {
     }
 }
 
-/// Why a column of numbers is no channel.
+/// Why a column of numbers is not a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Aside {
     /// Another time than that of the rows, or a part of it.
@@ -356,7 +356,7 @@ impl Aside {
         }
     }
 
-    /// Why it is no channel, in words.
+    /// Why it is not a channel, in words.
     #[must_use]
     pub fn why(self) -> &'static str {
         match self {
@@ -445,12 +445,12 @@ pub enum TimeFormat {
     SampleNumber,
     /// A number of seconds from a zero of the file's own.
     Seconds,
-    /// A number from a zero of the file's own, in units of so many nanoseconds (milliseconds, days, …).
+    /// A number from a zero of the file's own, in units of this many nanoseconds (milliseconds, days, …).
     Elapsed {
         /// Nanoseconds in one unit.
         unit_ns: i64,
     },
-    /// A number since 1970, in units of so many nanoseconds (1 000 000 000, 1 000 000, 1 000 or 1).
+    /// A number since 1970, in units of this many nanoseconds (1 000 000 000, 1 000 000, 1 000 or 1).
     Epoch {
         /// Nanoseconds in one unit.
         unit_ns: i64,
@@ -464,7 +464,7 @@ pub enum TimeFormat {
     },
     /// A time of day: `17:57:05.25`. A step back of more than half a day is the next day.
     Clock,
-    /// A number of units of so many nanoseconds since a known moment: days of a spreadsheet, GPS seconds.
+    /// A number of units of this many nanoseconds since a known moment: days of a spreadsheet, GPS seconds.
     Since {
         /// Nanoseconds in one unit.
         unit_ns: i64,

@@ -8,7 +8,7 @@ use crate::run::{End, Switch, run};
 use crate::scheme::Scheme;
 use crate::tree::Tree;
 
-/// Processor time of a batch, seconds: so many times what it takes without a mutant, but not less than this.
+/// Processor time of a batch, seconds: this many times what it takes without a mutant, but not less than this.
 const TIMES: f64 = 10.0;
 const LEAST: f64 = 8.0;
 

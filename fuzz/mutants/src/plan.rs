@@ -5,7 +5,7 @@ use crate::reach::Test;
 /// Tests of one program that run together, by their place in the list of tests.
 pub type Batch = Vec<usize>;
 
-/// Seconds of the first batches; each further helping is so many times larger.
+/// Seconds of the first batches; each further helping is this many times larger.
 const FIRST: f64 = 0.05;
 const GROWTH: f64 = 4.0;
 

@@ -98,7 +98,7 @@ pub(super) fn findings(runs: Runs<'_>) -> Vec<Finding> {
     findings.push(Finding::untold(
         "cost",
         "Five-point prediction costs the least, matched measurements the most",
-        "times depend on the machine: `cargo bench` measures them, and the README has the table",
+        "times depend on the machine: `cargo bench` measures them, and `docs/benchmarks.md` has the table",
     ));
     findings
 }

@@ -4,11 +4,11 @@ use super::super::record::{Record, Signal, Wild};
 use crate::experiment::Random;
 
 /// Samples that were received.
-const SAMPLES: usize = 19_285;
+pub(super) const SAMPLES: usize = 19_285;
 /// Samples that were lost.
-const LOST: usize = 192;
+pub(super) const LOST: usize = 192;
 /// Samples that are wild.
-const OUTLIERS: usize = 135;
+pub(super) const OUTLIERS: usize = 135;
 
 /// Samples sent.
 const SENT: usize = SAMPLES + LOST;

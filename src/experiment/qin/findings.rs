@@ -116,6 +116,13 @@ fn of_single_windows(runs: Runs<'_>) -> Vec<Finding> {
         ),
         finding(
             runs,
+            "template-inaccurate-at-20",
+            "At a window of 20 template convolution is the least accurate over all",
+            |set| set.worst(TEMPLATE, AT_20),
+            km(AT_20),
+        ),
+        finding(
+            runs,
             "median-and-mean-best-at-50",
             "At a window of 50 the sliding median and the sliding mean are the best",
             |set| set.before([MEDIAN, MEAN], AT_50),
@@ -254,6 +261,13 @@ fn of_kinds(runs: Runs<'_>) -> Vec<Finding> {
             "At a window of 20 the polynomial is worse on patches than median and mean",
             |set| [MEDIAN, MEAN].iter().all(|&m| set.share(POLY, AT_20, PATCH) < set.share(m, AT_20, PATCH)),
             both(AT_20),
+        ),
+        finding(
+            runs,
+            "template-leaves-isolated-at-50",
+            "At a window of 50 template convolution still leaves some isolated outliers",
+            |set| set.share(TEMPLATE, AT_50, ISOLATED) < 100.0,
+            |set| format!("isolated found in percent: {}", set.by_method(|m| set.share(m, AT_50, ISOLATED), 0)),
         ),
         finding(
             runs,

@@ -11,13 +11,13 @@ pub struct TableFacts {
     pub format: Option<&'static str>,
     /// True where several lines, or parts of lines, make a row.
     pub records: bool,
-    /// What stands between cells: `commas`, `semicolons`, `tabs`, `pipes` or `blanks`.
+    /// The field separator: `commas`, `semicolons`, `tabs`, `pipes` or `blanks`.
     pub delimiter: &'static str,
     /// True where cells stand in columns of a fixed width.
     pub fixed_width: bool,
     /// The quote, where cells may be quoted.
     pub quote: Option<char>,
-    /// True when `1,5` means one and a half.
+    /// True when a comma is the decimal sign.
     pub decimal_comma: bool,
     /// How bytes encode text: `UTF-8`, `UTF-16 (little-endian)`, `UTF-16 (big-endian)` or `Windows-1252`.
     pub encoding: &'static str,
@@ -102,7 +102,7 @@ impl TimeFacts {
     }
 }
 
-/// What stands between cells, in a word.
+/// The field separator, in a word.
 pub(super) fn delimiter(delimiter: Delimiter) -> &'static str {
     match delimiter {
         Delimiter::Byte(b',') => "commas",

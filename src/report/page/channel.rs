@@ -4,15 +4,18 @@ use super::super::summary::{ChannelSummary, residual_line, score_line};
 use super::super::svg::{Pictures, figures};
 use super::flagged::{self, Flagged};
 use super::{Section, Table, measured};
+use crate::analysis::filtered;
 use crate::param::{Param, Settings, Value};
 use crate::repair;
-use crate::session::{Counts, Outcome, Plan, Preset};
+use crate::session::{Counts, Outcome, OutputValue, Plan, Preset};
+use crate::stop::Stop;
 use crate::track::{Samples, Track};
 
-/// The section about the channel of `plan`, with its table of flags.
+/// The section about the channel of `plan`, with its table of flags. Its pictures show the filtered track where `value`
+/// says that it is what the cleaned file has.
 pub(super) fn section(
     track: &Track,
-    plan: &Plan,
+    (plan, value): (&Plan, OutputValue),
     (index, samples, outcome): (usize, &Samples, &Outcome),
     summary: &ChannelSummary,
     (flagged, beside): (Flagged, Option<&str>),
@@ -40,7 +43,9 @@ pub(super) fn section(
     }
     let rest = flagged::in_words(&flagged, beside);
     let listed = if flagged.table.rows.is_empty() { nothing_listed(&summary.counts) } else { rest };
-    let Pictures { figures, close } = figures(track, channel, series, outcome);
+    let filtered = (value == OutputValue::Filtered).then(|| filtered(outcome, &series, &Stop::never()).ok().flatten());
+    let filtered = filtered.flatten();
+    let Pictures { figures, close } = figures(track, channel, series, outcome, filtered.as_ref());
     Section {
         title: format!("{}{unit}", plan.channel),
         method: format!(
@@ -57,6 +62,7 @@ pub(super) fn section(
         notes,
         advice: about.advice.split_whitespace().collect::<Vec<_>>().join(" "),
         figures,
+        filtered: filtered.is_some(),
         close,
         flags: flagged.table,
         listed,

@@ -21,7 +21,7 @@ pub(super) fn cited(session: &Session) -> Vec<(String, String)> {
 }
 
 /// The documents whose numbers are in a source.
-fn numbered(source: &str) -> impl Iterator<Item = (String, String)> {
+pub(in crate::report) fn numbered(source: &str) -> impl Iterator<Item = (String, String)> {
     let rows = REFERENCES.lines().filter_map(|line| line.strip_prefix("| `["));
     let rows = rows.filter_map(|row| row.split_once("]` | "));
     rows.filter(|(number, _)| source.contains(&format!("[{number}]")))

@@ -20,7 +20,7 @@ fn class_of(state: FlagState) -> &'static str {
     STATES.iter().find(|s| s.0 == state).map_or("", |s| s.1)
 }
 
-/// From so many marks on, marks closer together than a few units are drawn once.
+/// From this many marks on, marks closer together than a few units are drawn once.
 const MANY: usize = 2000;
 /// How close that is.
 const CLOSE: f64 = 3.0;
@@ -57,7 +57,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// For so many marks.
+    /// For this many marks.
     pub(super) fn new(marks: usize) -> Self {
         Self { cell: if marks > MANY { CLOSE } else { 0.1 }, taken: BTreeSet::new() }
     }

@@ -51,9 +51,11 @@ pub(super) fn overview(subject: &Subject<'_>) -> Figure {
 /// The whole record at the scale of its kept samples, with band, repair and flags.
 pub(super) fn trace(subject: &Subject<'_>) -> Figure {
     let size = Size { width: WIDE, height: 332 };
-    let caption = "Trace at the scale of the kept samples: measured, expected with its tolerance, repaired. \
-                   Arrows at the edge are flags beyond it."
-        .to_owned();
+    let filtered = if subject.filtered.is_some() { ", filtered" } else { "" };
+    let caption = format!(
+        "Trace at the scale of the kept samples: measured, expected with its tolerance, repaired{filtered}. Arrows at \
+         the edge are flags beyond it."
+    );
     let fit = kept_or_robust(subject, subject.whole());
     Figure { svg: of_trace(subject, subject.whole(), fit, size, true), caption, small: false }
 }
@@ -83,6 +85,9 @@ pub(super) fn of_trace(subject: &Subject<'_>, view: View, fit: YFit, size: Size,
             path("expected", line(&of(trace.expected.as_ref()), frame));
         }
         path("raw", line(&of(Some(&trace.kept)), frame));
+        if layers {
+            path("filtered", line(&of(trace.filtered.as_ref()), frame));
+        }
         out.push_str("</svg>");
         let positions = columns.in_view();
         if layers {

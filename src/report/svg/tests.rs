@@ -20,7 +20,7 @@ fn figures_of(y: &[f64]) -> (Vec<Figure>, usize) {
     let (index, samples, outcome) = &analysed.channels[0];
     let flagged = outcome.outliers.len();
     let channel = &track.channels[*index];
-    (figures(&track, channel, samples.series(channel, &track.time), outcome).figures, flagged)
+    (figures(&track, channel, samples.series(channel, &track.time), outcome, None).figures, flagged)
 }
 
 /// A slow wave with `wild` samples 50 above it.
@@ -86,7 +86,7 @@ fn lines_break_where_samples_are_lost_and_the_stretch_is_shaded() {
     let analysed = Analysed::of(&session, &track, &Stop::never()).unwrap();
     let (index, samples, outcome) = &analysed.channels[0];
     let channel = &track.channels[*index];
-    let figures = figures(&track, channel, samples.series(channel, &track.time), outcome).figures;
+    let figures = figures(&track, channel, samples.series(channel, &track.time), outcome, None).figures;
     let overview = &figures[0].svg;
     let raw = overview.split("class=\"raw\" d=\"").nth(1).unwrap().split('"').next().unwrap();
     assert_eq!(raw.matches('M').count(), 2, "{raw}");
@@ -126,7 +126,7 @@ fn of_many_events_the_largest_are_close_up_and_the_others_counted() {
     let analysed = Analysed::of(&session, &track, &Stop::never()).unwrap();
     let (index, samples, outcome) = &analysed.channels[0];
     let channel = &track.channels[*index];
-    let pictures = figures(&track, channel, samples.series(channel, &track.time), outcome);
+    let pictures = figures(&track, channel, samples.series(channel, &track.time), outcome, None);
     let events = outcome.runs.len();
     assert!(events >= 20 && pictures.figures.len() == 5 + 12, "{events} events");
     assert!(pictures.close.starts_with(&format!("The 12 largest of {events} events")), "{}", pictures.close);

@@ -1,4 +1,4 @@
-//! What one step of the active knob, up or down, does to the flags.
+//! What one step of the active parameter, up or down, does to the flags.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -25,12 +25,12 @@ pub struct Step {
     lost: Vec<u32>,
 }
 
-/// What one step of a knob changes, up and down; none where the range ends.
+/// What one step of a parameter changes, up and down; none where the range ends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steps {
     /// The setup they start from.
     setup: Setup,
-    /// The knob.
+    /// The parameter.
     key: &'static str,
     /// One step up.
     pub up: Option<Step>,
@@ -49,7 +49,7 @@ impl Step {
 }
 
 impl Steps {
-    /// True when they are those of this knob under this setup.
+    /// True when they are those of this parameter under this setup.
     #[must_use]
     pub fn is_for(&self, setup: &Setup, knob: Knob) -> bool {
         matches!(knob, Knob::Detection(p) if p.key == self.key) && self.setup.same_detection(setup)
@@ -69,8 +69,8 @@ pub(in crate::tui) struct StepsJob {
 }
 
 impl StepsJob {
-    /// The job for the active knob of a plan; none when the knob has no bearing on the flags, when there is no result
-    /// to compare with, or when the answer is there.
+    /// The job for the active parameter of a plan; none when the parameter has no bearing on the flags, when there is
+    /// no result to compare with, or when the answer is there.
     pub(super) fn beside(model: &Model, plan: usize) -> Option<(Self, Arc<Detection>)> {
         let state = &model.channels[plan];
         let now = Arc::clone(&state.drawn.as_ref()?.outcome.detection);

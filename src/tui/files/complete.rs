@@ -12,7 +12,7 @@ pub(super) fn path(typed: &str) -> String {
         .map_or(("", typed), |(_, start)| (&typed[..typed.len() - start.len()], start));
     let place = if folder.is_empty() { Path::new(".") } else { Path::new(folder) };
     let Ok(entries) = std::fs::read_dir(place) else { return typed.to_owned() };
-    // A name that is no text could not be typed to its end.
+    // A name that is not text could not be typed to its end.
     let names = entries.flatten().take(MOST).filter_map(|e| e.file_name().into_string().ok());
     let mut fitting: Vec<String> =
         names.filter(|n| n.starts_with(start) && (start.starts_with('.') || !n.starts_with('.'))).collect();

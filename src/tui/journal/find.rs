@@ -16,7 +16,7 @@ use crate::track::{Track, covered, printable};
 /// A journal larger than this is none.
 const LARGEST: u64 = 1 << 30;
 
-/// The first line is within so many bytes.
+/// The first line is within this many bytes.
 const HEAD: u64 = 64 << 10;
 
 /// Journals about other contents that are looked into at most, the newest first: one of them may be about an earlier
@@ -219,7 +219,7 @@ impl Wanted<'_> {
 enum Content {
     /// It is the same.
     Same,
-    /// It is the start of it, to which so many rows were added.
+    /// It is the start of it, to which this many rows were added.
     Start { added: usize },
     /// It has more rows, which are in the file and were not loaded.
     Longer,

@@ -1,8 +1,8 @@
 //! The thread that writes the journal. It writes each entry as it comes; bringing it to the disk is for a second
 //! thread, since that takes long and the next entry must not wait for it.
 //!
-//! What cannot be written (the disk is full, say) is kept and tried again until it can; the workbench is told when
-//! that begins and when it is over.
+//! What cannot be written (for example because the disk is full) is kept and tried again until it can; the workbench is
+//! told when that begins and when it is over.
 
 use std::fs::File;
 use std::io::Read;

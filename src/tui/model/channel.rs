@@ -35,7 +35,7 @@ pub struct ChannelState {
     pub groups: Vec<Group>,
     /// Position of the flag in the first row of the queue's panel.
     pub top: u32,
-    /// Flags that a knob has taken away and that keep their rows there, ascending.
+    /// Flags that a parameter has taken away and that keep their rows there, ascending.
     pub gone: Vec<u32>,
     /// The position of the cursor when they went.
     pub gone_at: usize,
@@ -45,7 +45,7 @@ pub struct ChannelState {
     pub advice: Option<Advice>,
     /// True when they were asked for, however long they take.
     pub sweep_asked: bool,
-    /// What one step of the active knob changes, for the setup it was found for.
+    /// What one step of the active parameter changes, for the setup it was found for.
     pub steps: Option<Steps>,
     /// True when the result is not that of the session as it is now.
     pub stale: bool,
@@ -85,7 +85,7 @@ pub struct ChannelState {
     pub pictures: Pictures,
     /// Position of the sample under the cursor.
     pub cursor: usize,
-    /// Index of the active knob.
+    /// Index of the active parameter.
     pub knob: usize,
     /// Settings of methods that were tuned and left, by id.
     pub tuned: HashMap<&'static str, Settings>,

@@ -20,15 +20,15 @@ pub enum Overlay {
     Overview(Box<ChannelsOverview>),
     /// A line to type in.
     Prompt(Prompt),
-    /// The command line that does the same without a screen, and what to know about it.
+    /// The command line that is equivalent, without a screen, and what to know about it.
     CommandLine(String, &'static str),
     /// A dialog about files.
     Files(Box<Dialog>),
     /// Quit although something is not saved?
     ConfirmQuit,
-    /// What was done, at the moment after so many edits.
+    /// What was done, at the moment after this many edits.
     Journal(usize),
-    /// Take back in what an earlier workbench left? The newest first.
+    /// Recover what an earlier workbench left? The newest first.
     Recover(Vec<Found>),
     /// Which side holds, where session and journal contradict each other?
     Merge(Box<Merging>),
@@ -105,7 +105,7 @@ pub enum PromptKind {
     Jump,
     /// Where the session is saved.
     SaveAs,
-    /// The value of the active knob.
+    /// The value of the active parameter.
     Value,
     /// A note on decisions.
     Note,

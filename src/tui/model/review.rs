@@ -13,7 +13,7 @@ pub enum Sort {
     Time,
     /// The largest residual in tolerances first.
     Ratio,
-    /// Those that the method contradicts first, then those nobody decided on.
+    /// Those that the method contradicts first, then the undecided ones.
     State,
     /// The longest runs first.
     Run,

@@ -17,8 +17,8 @@ pub(super) struct Bar {
     pub(super) beyond: bool,
 }
 
-/// Columns from one dot of a dotted line to the next. A line that is turned by a knob moves from row to row, and each
-/// of its cells goes over the wire twice then.
+/// Columns from one dot of a dotted line to the next. A line that is turned by a parameter moves from row to row, and
+/// each of its cells goes over the wire twice then.
 const APART: u16 = 4;
 
 /// Whether a dotted line has a dot in a column.

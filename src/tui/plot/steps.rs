@@ -16,7 +16,7 @@ use crate::tui::theme::Theme;
 
 /// The widget of step sizes: the shortest to the longest step of each column. A column in which samples are lost has
 /// a mark at its longest step, one in which the record is cut a line as well, one with rows without a usable time an
-/// exclamation mark. The dotted line is one and a half intervals, from where on samples are lost.
+/// exclamation mark. The dotted line is 1.5 intervals, from where on samples are lost.
 #[derive(Clone)]
 pub struct StepPlot<'a> {
     /// The steps of each column.

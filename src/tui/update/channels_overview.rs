@@ -146,7 +146,7 @@ fn edited(model: &mut Model, overview: ChannelsOverview, edit: impl FnOnce(&mut 
     effects
 }
 
-/// Accepts all flags of the channels that nobody has decided on.
+/// Accepts all undecided flags of the channels.
 fn accept(model: &mut Model, overview: ChannelsOverview) -> Vec<Effect> {
     let targets = overview.targets();
     let known = |plan: &usize| {

@@ -65,7 +65,7 @@ fn switch_all(model: &mut Model) -> Vec<Effect> {
     prepare(model, preparation, if on { "all checks on" } else { "all checks off" })
 }
 
-/// Switches the check of a knob, or the learning from decisions.
+/// Switches the check of a parameter, or the learning from decisions.
 pub(super) fn switch(model: &mut Model, knob: Knob) -> Vec<Effect> {
     let setup = &model.plan().setup;
     let on = match knob {
@@ -75,7 +75,7 @@ pub(super) fn switch(model: &mut Model, knob: Knob) -> Vec<Effect> {
     step(model, knob, !on)
 }
 
-/// A step of a knob that is on or off.
+/// A step of a parameter that is on or off.
 pub(super) fn step(model: &mut Model, knob: Knob, on: bool) -> Vec<Effect> {
     let mut preparation = model.plan().setup.preparation.clone();
     let words = match knob {
@@ -102,7 +102,7 @@ pub(super) fn step(model: &mut Model, knob: Knob, on: bool) -> Vec<Effect> {
     prepare(model, preparation, &words)
 }
 
-/// The value of a knob of this group, as text.
+/// The value of a parameter of this group, as text.
 pub(super) fn value_text(setup: &Setup, knob: Knob) -> String {
     let preparation = &setup.preparation;
     let word = |on: bool| if on { "on" } else { "off" }.to_owned();

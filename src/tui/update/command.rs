@@ -21,7 +21,7 @@ type Do = fn(&mut Model, &str) -> Result<Vec<Effect>, String>;
 /// A command.
 #[derive(Debug)]
 pub struct Command {
-    /// Its name after the colon; `|` stands between spellings.
+    /// Its name after the colon; `|` separates spellings.
     pub name: &'static str,
     /// What follows it.
     pub takes: &'static str,

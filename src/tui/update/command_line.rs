@@ -1,4 +1,4 @@
-//! The command line that does the same without a screen.
+//! The command line that is equivalent, without a screen.
 
 use std::path::{Path, PathBuf};
 

@@ -106,7 +106,7 @@ fn adopt(model: &mut Model) -> Vec<Effect> {
     let plan = model.shown;
     let id = pinned.setup.method.about().id;
     let edit = Edit::Setup { plan, before: Box::new(before), after: Box::new(pinned.setup) };
-    // In an envelope: it is not joined to steps of the same knob before it.
+    // In an envelope: it is not joined to steps of the same parameter before it.
     let effects = commit(model, Edit::Several(vec![edit]));
     model.say(
         Tone::Done,

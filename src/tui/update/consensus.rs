@@ -51,7 +51,7 @@ pub(super) fn wanted(model: &Model) -> Vec<Effect> {
     if open && !known && !asked { vec![Effect::Poll(model.shown)] } else { Vec::new() }
 }
 
-/// So many methods have answered.
+/// This many methods have answered.
 pub(super) fn polling(model: &mut Model, generation: u64, done: usize) {
     if let Some(polling) = model.polling.as_mut().filter(|p| p.generation == generation) {
         polling.done = done;

@@ -1,4 +1,4 @@
-//! Edits of the document: made, taken back, made again.
+//! Edits of the document: made, undone, redone.
 
 use super::super::action::Action;
 use super::super::message::Effect;
@@ -26,7 +26,7 @@ pub(super) fn commit(model: &mut Model, edit: Edit) -> Vec<Effect> {
     effects
 }
 
-/// Joins a step of a knob to the steps of the same knob just before it, so that one undo takes them all back.
+/// Joins a step of a parameter to the steps of the same parameter just before it, so that one undo takes them all back.
 fn join(model: &mut Model, edit: &Edit) -> bool {
     let (Some(Edit::Setup { plan, before, after }), Edit::Setup { plan: now, before: middle, after: last }) =
         (model.history.last_mut(), edit)
@@ -99,7 +99,7 @@ pub(super) fn redo(model: &mut Model) -> Vec<Effect> {
     say(model, &edit, "done again", &back)
 }
 
-/// Undoes or redoes until so many edits are in force.
+/// Undoes or redoes until this many edits are in force.
 pub(super) fn go_back_to(model: &mut Model, edits: usize) -> Vec<Effect> {
     let from = model.history.len();
     let forth = edits > from;

@@ -97,7 +97,7 @@ fn row_of(model: &Model, text: &str) -> Result<usize, String> {
     model.series().position(row).ok_or_else(|| format!("row {} has no value or no usable time", row + 1))
 }
 
-/// So many samples or so much time from the cursor.
+/// This many samples or so much time from the cursor.
 fn relative(model: &Model, text: &str) -> Option<usize> {
     let (forward, size) = match text.split_at_checked(1)? {
         ("+", rest) => (true, rest.trim()),

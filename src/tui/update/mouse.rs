@@ -45,7 +45,8 @@ pub(super) fn act(model: &mut Model, event: MouseEvent) -> Vec<Effect> {
     Vec::new()
 }
 
-/// The wheel zooms the plots at the pointer, walks through the queue, and turns the active knob over the parameters.
+/// The wheel zooms the plots at the pointer, walks through the queue, and turns the active parameter over the
+/// parameters.
 fn turn(model: &mut Model, under: Spot, up: bool, sideways: bool) -> Vec<Effect> {
     match under {
         Spot::Queue(_) => return perform(model, if up { Action::PreviousInQueue } else { Action::NextInQueue }),

@@ -20,7 +20,7 @@ pub(in crate::tui) static REASONS: &[&str] = &[
     "real, seen in another channel",
 ];
 
-/// Stands between a reason and further words.
+/// Separates a reason from further words.
 const THEN: &str = ": ";
 
 /// Asks for a note on what was decided. It is asked for in any case, so that what is typed next is never taken for

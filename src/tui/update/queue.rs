@@ -70,7 +70,7 @@ fn urgency(drawn: &Drawn, item: Group) -> u8 {
 }
 
 /// The flags that a panel of `rows` rows shows, row by row: of runs the first sample. Rows stay where they are as long
-/// as the current flag is among them, and among them are those that a knob has just taken away.
+/// as the current flag is among them, and among them are those that a parameter has just taken away.
 #[must_use]
 pub(in crate::tui) fn listed(model: &Model, rows: usize) -> Vec<u32> {
     let state = model.state();
@@ -139,7 +139,7 @@ pub(super) fn in_sight(model: &Model) -> Vec<u32> {
 
 /// After a method has judged anew: has the panel begin where most of the flags that `before` were in sight stay in
 /// their rows. Those it no longer flags keep theirs until the cursor moves, unless they are many: one sees what a step
-/// of a knob has taken away, and the rest need not be looked for.
+/// of a parameter has taken away, and the rest need not be looked for.
 pub(super) fn stay(model: &mut Model, before: &[u32]) {
     // Only by time do the others keep their order; runs grow and shrink.
     let by_time = model.review.sort == Sort::Time && model.review.unit == Unit::Sample;

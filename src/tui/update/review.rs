@@ -49,9 +49,9 @@ pub(in crate::tui) fn mark_at(model: &Model, position: usize) -> Option<Mark> {
 pub(super) enum Stops {
     /// All but suspects, which are a class of their own.
     Flags,
-    /// Flags that nobody decided on.
+    /// Undecided flags.
     Undecided,
-    /// Suspects that nobody decided on.
+    /// Undecided suspects.
     Suspects,
     /// Decisions that the method contradicts now.
     Conflicts,

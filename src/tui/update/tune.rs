@@ -1,4 +1,4 @@
-//! Turning the knobs: method, parameters, repair.
+//! Turning the parameters: method, parameters, repair.
 
 use super::super::action::Action;
 use super::super::advice::BY_ITSELF;
@@ -29,7 +29,7 @@ pub(super) fn act(model: &mut Model, action: Action) -> Option<Vec<Effect>> {
     })
 }
 
-/// The single knob by which two setups differ, with its values; none when they differ in more, or in the method.
+/// The single parameter by which two setups differ, with its values; none when they differ in more, or in the method.
 pub(super) fn knob_between(before: &Setup, after: &Setup) -> Option<(&'static str, String, String)> {
     let other = before.rate != after.rate || before.preparation != after.preparation;
     if before.method.about().id != after.method.about().id || other {
@@ -60,7 +60,7 @@ pub(super) fn more_flags(before: &Outcome, after: &Outcome) -> Option<String> {
     })
 }
 
-/// The value of a knob, as text.
+/// The value of a parameter, as text.
 pub(in crate::tui) fn value_text(setup: &Setup, knob: Knob) -> String {
     match knob {
         Knob::Method => setup.method.about().id.to_owned(),
@@ -71,7 +71,7 @@ pub(in crate::tui) fn value_text(setup: &Setup, knob: Knob) -> String {
     }
 }
 
-/// The value of a knob that turns a parameter.
+/// The value of a parameter that turns a parameter.
 pub(in crate::tui) fn value(setup: &Setup, knob: Knob) -> Option<Value> {
     match knob {
         Knob::Detection(p) => setup.settings.get(p.key),
@@ -81,10 +81,10 @@ pub(in crate::tui) fn value(setup: &Setup, knob: Knob) -> Option<Value> {
     }
 }
 
-/// The setup with another value of a knob.
+/// The setup with another value of a parameter.
 ///
 /// # Errors
-/// What is wrong with the value: a check that could not object to anything, say.
+/// What is wrong with the value: for example a check that could not object to anything.
 fn with_value(setup: &Setup, knob: Knob, value: Value) -> Result<Setup, String> {
     let mut after = setup.clone();
     match knob {
@@ -155,7 +155,7 @@ pub(super) fn type_value(model: &mut Model) -> Vec<Effect> {
     }
 }
 
-/// Sets the active knob from typed text.
+/// Sets the active parameter from typed text.
 pub(super) fn set_value(model: &mut Model, text: &str) -> Result<Vec<Effect>, String> {
     let knob = model.knob();
     match knob {
@@ -254,7 +254,7 @@ pub(super) fn set_repair(model: &mut Model, id: &str) -> Result<Vec<Effect>, Str
     Ok(effects)
 }
 
-/// Asks for what a step of the active knob changes, and for the counts along the multiplier where they are cheap
+/// Asks for what a step of the active parameter changes, and for the counts along the multiplier where they are cheap
 /// enough to be found unasked, unless they are known.
 pub(super) fn advise(model: &Model, plan: usize) -> Vec<Effect> {
     let state = &model.channels[plan];

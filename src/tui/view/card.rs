@@ -256,7 +256,7 @@ fn neighbours(model: &Model, series: &Series<'_>, i: usize, width: usize) -> Lin
     all.into_iter().find(|line| line.width() <= width).unwrap_or_default()
 }
 
-/// So many values on each side.
+/// This many values on each side.
 fn around(model: &Model, series: &Series<'_>, i: usize, reach: usize) -> Line<'static> {
     let theme = &model.theme;
     let mut spans = vec![Span::styled(" neighbours", theme.dim)];

@@ -1,4 +1,4 @@
-//! The journal panel: every edit in its order, those that were taken back dim, and where the session is among them.
+//! The journal panel: every edit in its order, the undone ones dim, and where the session is among them.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -30,7 +30,7 @@ pub(super) fn draw(model: &Model, at: usize, area: Rect, buffer: &mut Buffer) ->
         let edit = match line.checked_sub(1) {
             None => None,
             Some(index) if index < done.len() => done.get(index),
-            // What was taken back last is made again first.
+            // What was undone last is redone first.
             Some(index) => undone.get(all - 1 - index),
         };
         let words = edit.map_or_else(|| "as it was opened".to_owned(), |edit| describe::edit(model, edit));

@@ -231,7 +231,7 @@ fn line(model: &Model, prompt: &Prompt, area: Rect, buffer: &mut Buffer) -> Vec<
     choices
 }
 
-/// The command line that does the same without a screen, to be read or copied.
+/// The command line that is equivalent, without a screen, to be read or copied.
 fn command_line(model: &Model, line: &str, about: &str, area: Rect, buffer: &mut Buffer) {
     let width = usize::from(area.width.min(100)).saturating_sub(4).max(1);
     // Cut anywhere: a blank at the end of a row would not be seen, and is part of it.

@@ -18,25 +18,26 @@ use crate::track::printable;
 
 /// The rows of the panel below its heading.
 pub(in crate::tui) struct Rows {
-    /// What stands below the knobs; true for a warning.
+    /// What stands below the parameters; true for a warning.
     notes: Vec<(String, bool)>,
     /// Rows above the notes.
     room: usize,
-    /// The index of the first knob in sight.
+    /// The index of the first parameter in sight.
     pub(in crate::tui) from: usize,
-    /// How many knobs are in sight.
+    /// How many parameters are in sight.
     pub(in crate::tui) visible: usize,
 }
 
 impl Rows {
-    /// The rows in `body`: counts, help and advice below as many knobs as there is room for, the active one among
+    /// The rows in `body`: counts, help and advice below as many parameters as there is room for, the active one among
     /// them.
     pub(in crate::tui) fn of(model: &Model, body: Rect) -> Self {
         let knobs = model.knobs().len();
         let active = model.state().knob.min(knobs.saturating_sub(1));
         let height = usize::from(body.height);
         let width = usize::from(body.width).saturating_sub(1);
-        // The first block (the counts) always shows; the others where they fit whole, once the knobs have their rows.
+        // The first block (the counts) always shows; the others where they fit whole, once the parameters have their
+        // rows.
         let least = if model.focus == Panel::Parameters { height * 3 / 5 } else { height * 9 / 20 };
         let spare = height.saturating_sub(knobs).max(least);
         let mut notes: Vec<(String, bool)> = Vec::new();
@@ -45,7 +46,7 @@ impl Rows {
                 notes.extend(block);
             }
         }
-        // Facts take what is left, and no knob its row.
+        // Facts take what is left, and no parameter its row.
         let calibration = model.state().drawn.as_ref().and_then(|d| d.outcome.detection.calibration.as_deref());
         let record = calibration.map(|found| format!("the record: {}", found.words(&model.channel().unit).join("; ")));
         let facts = model.plan().setup.method.notes(&model.plan().setup.settings);
@@ -57,7 +58,7 @@ impl Rows {
         }
         notes.truncate(height.saturating_sub(4));
         let room = height - notes.len();
-        // Knobs that do not fit scroll; the last row says how many are out of sight.
+        // Parameters that do not fit scroll; the last row says how many are out of sight.
         let visible = if knobs > room { room.saturating_sub(1) } else { room };
         Self { notes, room, from: (active + 1).saturating_sub(visible), visible }
     }
@@ -116,7 +117,7 @@ fn put(line: Line<'_>, row: usize, body: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Blocks of rows of at most `width` columns, the most wanted first: counts, the help of the active knob while the
+/// Blocks of rows of at most `width` columns, the most wanted first: counts, the help of the active parameter while the
 /// panel has the keyboard, warnings. True for a warning.
 fn blocks(model: &Model, width: usize) -> Vec<Vec<(String, bool)>> {
     let mut blocks = Vec::new();
@@ -182,7 +183,7 @@ fn advice_rows(model: &Model, advice: &Advice, width: usize) -> Vec<(String, boo
     rows
 }
 
-/// How many samples are flagged, and how many were with another value of the active knob.
+/// How many samples are flagged, and how many were with another value of the active parameter.
 fn flagged(model: &Model, drawn: &Drawn) -> Vec<(String, bool)> {
     let n = drawn.outcome.counts;
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
@@ -209,8 +210,8 @@ fn counts(drawn: &Drawn, width: usize) -> Vec<(String, bool)> {
     lines.into_iter().map(|line| (line, false)).collect()
 }
 
-/// How many flags there are one step of the active knob up and down from the result on the screen, and how many of them
-/// come and go.
+/// How many flags there are one step of the active parameter up and down from the result on the screen, and how many of
+/// them come and go.
 fn steps(model: &Model, drawn: &Drawn) -> Vec<String> {
     let flagged = drawn.outcome.counts.flagged;
     let Knob::Detection(param) = model.knob() else { return Vec::new() };
@@ -250,7 +251,7 @@ pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
     crate::wrapped::wrapped(text, width, ("", ""))
 }
 
-/// Method and parameters in one line, the active knob always among them.
+/// Method and parameters in one line, the active parameter always among them.
 pub(super) fn one_line(model: &Model, area: Rect, buffer: &mut Buffer) {
     clear(area, buffer);
     let theme = &model.theme;

@@ -136,7 +136,7 @@ fn entry(model: &Model, series: &Series<'_>, item: Group, here: bool, columns: &
         (false, _) => theme.dim,
     };
     let mark = shown.map_or(theme.dim, |s| theme.flag(s));
-    // Without a mark it is one that a knob has just taken away.
+    // Without a mark it is one that a parameter has just taken away.
     let glyph = shown.map_or(model.glyphs.gone(), |s| model.glyphs.flag(s));
     let mut spans = vec![Span::styled(text, style), Span::styled(glyph.to_string(), mark)];
     if conflict {

@@ -13,7 +13,7 @@ use super::{clear, fit, thousands};
 use crate::score::Score;
 use crate::track::{Standing, printable};
 
-/// From so many columns on there is room for all words.
+/// From this many columns on there is room for all words.
 const ROOMY: u16 = 100;
 
 pub(super) fn draw(model: &Model, area: Rect, buffer: &mut Buffer) {
@@ -91,7 +91,7 @@ fn right_side(model: &Model, width: u16) -> Line<'static> {
             }
         }
     }
-    // The mark of an old result stands where a blank is without it: the counts stay put while a knob is turned.
+    // The mark of an old result stands where a blank is without it: the counts stay put while a parameter is turned.
     let old = state.stale && state.drawn.is_some();
     let unsaved = if model.unsaved() { "[+] " } else { "    " };
     spans.push(Span::styled(format!("{}{unsaved}", if old { '…' } else { ' ' }), theme.warning));

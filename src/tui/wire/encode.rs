@@ -17,7 +17,7 @@ pub(super) struct Put<'a> {
     pub(super) pen: Pen,
 }
 
-/// Erases a row from the cursor on: shorter than so many blanks, and nothing else is to the right of them.
+/// Erases a row from the cursor on: shorter than this many blanks, and nothing else is to the right of them.
 const ERASE: &str = "\x1b[K";
 const ERASED_FROM: u16 = 4;
 

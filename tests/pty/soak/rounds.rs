@@ -134,7 +134,7 @@ struct Careful<'a> {
     counts: &'a mut Counts,
     desk: Desk,
     terminal: Terminal,
-    /// What must come back, by row; none for a decision that was taken back.
+    /// What must come back, by row; none for a decision that was cleared.
     made: BTreeMap<u32, Option<char>>,
     /// What was decided while nothing could be journalled: it may come back.
     waiting: BTreeMap<u32, Option<char>>,

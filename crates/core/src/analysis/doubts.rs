@@ -7,7 +7,7 @@ use crate::calibration::HOLDS;
 use crate::method::shared::{FLOOR, MAX_GAP};
 use crate::method::{Verdict, noise};
 
-/// More than one sample in so many flagged, or not judged, is worth a word.
+/// More than one sample in this many flagged, or not judged, is worth a word.
 const SHARE: usize = 20;
 
 /// More flags than wild points explain, more samples without a judgement than go without saying. A line each.

@@ -13,7 +13,7 @@ pub(super) struct GapPlaces {
     pub(super) at: Vec<(Place, f64)>,
 }
 
-/// More new rows than this many per row of the file are a mistake in the settings (`max_gap = off`, say), not a
+/// More new rows than this many per row of the file are a mistake in the settings (for example `max_gap = off`), not a
 /// record: such a gap is left open.
 const MOST_NEW_ROWS: usize = 4;
 

@@ -109,7 +109,7 @@ pub struct Counts {
     pub isolated: usize,
     /// Runs of two and more.
     pub patches: usize,
-    /// Suspects that nobody decided on.
+    /// Undecided suspects.
     pub suspects: usize,
     /// Samples with too few neighbours to judge.
     pub unchecked: usize,

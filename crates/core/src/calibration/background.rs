@@ -7,13 +7,13 @@ use crate::stop::{Stop, Stopped};
 /// Which neighbours are looked at.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Span {
-    /// So many on either side …
+    /// This many on either side …
     pub half: usize,
-    /// … but for so many nearest ones, among which a patch may lie.
+    /// … but for this many nearest ones, among which a patch may lie.
     pub middle: usize,
 }
 
-/// So many samples share one figure: the noise does not change faster.
+/// This many samples share one figure: the noise does not change faster.
 const SHARED: usize = 4;
 
 /// Figures computed in one piece of parallel work.

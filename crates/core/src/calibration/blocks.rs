@@ -17,7 +17,7 @@ use super::{Calibration, Record, calibrate_whole, share_held};
 use crate::math::order::median_in_place;
 use crate::stop::{Stop, Stopped};
 
-/// Every so many samples a thin residual is taken.
+/// Every this many samples a thin residual is taken.
 const STRIDE: usize = 4;
 
 /// Neighbours on either side of which a thin residual is made, as in the longer window of the whole calibration.
@@ -32,7 +32,7 @@ const NEAR: usize = 25;
 /// The quantile of them that is usual. A fifth of all samples may be wild.
 const USUAL: f64 = 0.7;
 
-/// So many samples share one usual residual: the noise does not change faster.
+/// This many samples share one usual residual: the noise does not change faster.
 const SHARED: usize = 16;
 
 /// Samples in a piece that is calibrated in full, and in one piece of parallel work.
@@ -188,7 +188,7 @@ fn pieces_of_all_states(record: &Record<'_>, usual: &[f64]) -> Vec<Range<usize>>
     chosen
 }
 
-/// The limit of each sample: so many times the usual residual around it as in the pieces of such noise, and no less
+/// The limit of each sample: this many times the usual residual around it as in the pieces of such noise, and no less
 /// than the least limit of all pieces. None where the pieces have no limit, since all of their values are the same.
 fn limits(usual: &[f64], sample: &Extract, found: &[f64], n: usize) -> Option<Vec<f64>> {
     let pieces = sample.parts.iter().zip(&sample.stretches);

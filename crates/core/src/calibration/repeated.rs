@@ -19,7 +19,7 @@ pub struct Repeated {
     pub certain: bool,
 }
 
-/// So many samples show where the record lies; of a longer record blocks are taken.
+/// This many samples show where the record lies; of a longer record blocks are taken.
 const LOOK: usize = 65_536;
 /// Samples of a block.
 const BLOCK: usize = 256;
@@ -35,7 +35,7 @@ const ABSURDLY_LARGER: f64 = 1e6;
 const CERTAIN: usize = 3;
 /// Any other far value is offered when it comes so often.
 const OFTEN: usize = 5;
-/// So many different far values are kept; more are no fill values.
+/// This many different far values are kept; more are no fill values.
 const KEPT: usize = 4096;
 
 /// Fill values beside those of nines: the ends of integer types, and what is written for them in data of this field.

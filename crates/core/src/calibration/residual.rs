@@ -14,7 +14,7 @@ use crate::stop::{Stop, Stopped};
 const PIECE: usize = 2048;
 
 /// The distance of each sample from the median of the interpolations between the neighbours at equal places before and
-/// after it, so many on each side, without the masked; then once more of what is left, which takes curvature off.
+/// after it, this many on each side, without the masked; then once more of what is left, which takes curvature off.
 /// Nothing is carried over a gap.
 pub(super) struct Residuals {
     /// Neighbours on each side.
@@ -133,7 +133,7 @@ const LINES: [usize; 2] = [2, 5];
 /// A side that has fewer unmasked samples than this cannot object; the other alone must do so by [`GROSS`] limits.
 const SIDE: usize = 2;
 
-/// Where one side alone objects, it must do so by so many times more.
+/// Where one side alone objects, it must do so by this many times more.
 const GROSS: f64 = 10.0;
 
 /// How far each sample lies outside of all that the unmasked neighbours of either side let expect: lines through the

@@ -3,7 +3,7 @@
 /// A step counts when at least this share of all steps other than 0 has it.
 const SHARE: f64 = 0.05;
 
-/// At most so many steps are looked at, spread over the record.
+/// At most this many steps are looked at, spread over the record.
 const ENOUGH: usize = 100_000;
 
 /// The smallest step between neighbours that many share, so that neither a rounded decimal nor a fill value decides

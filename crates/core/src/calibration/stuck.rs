@@ -21,9 +21,9 @@ pub struct Stuck {
     pub certain: bool,
 }
 
-/// A stuck stretch has at least so many samples …
+/// A stuck stretch has at least this many samples …
 const LEAST: usize = 20;
-/// … and so many times as many as the longest other run.
+/// … and this many times as many as the longest other run.
 const LONGER: usize = 8;
 /// More stretches than this are a habit of the record.
 const MOST: usize = 12;

@@ -5,7 +5,7 @@ use super::{Calibration, quantile};
 /// Below this share a repeated value is chance.
 const HELD: f64 = 0.01;
 
-/// Noise differs along a record when its limits reach so many times their median …
+/// Noise differs along a record when its limits reach this many times their median …
 const ROUGH: f64 = 2.0;
 /// … in the roughest part of this size.
 const ROUGHEST: f64 = 0.05;

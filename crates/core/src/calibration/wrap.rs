@@ -39,7 +39,7 @@ const ANGLES: [&str; 20] = [
     "psi",
     "track",
 ];
-/// Of the data alone, so many crossings are wanted.
+/// Of the data alone, this many crossings are wanted.
 const ENOUGH: usize = 3;
 /// A jump is a crossing when it comes this near to a whole period.
 const NEARLY: f64 = 0.8;

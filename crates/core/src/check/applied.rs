@@ -14,7 +14,7 @@ const CHANNELS: &str = "channels";
 pub struct Applied {
     /// Which check.
     pub check: &'static dyn Check,
-    /// Its knobs.
+    /// Its parameters.
     pub settings: Settings,
     /// The channels it is about, in their order, for a check of several channels; empty otherwise.
     pub channels: Vec<String>,

@@ -10,7 +10,7 @@ use super::round::{Found, Tally};
 use super::{Alone, EVENTS, Study, Unsuitable};
 use crate::setup::Setup;
 
-/// What weighs as much as a recall that is worse by 0.1: one false flag in so many samples.
+/// What weighs as much as a recall that is worse by 0.1: one false flag in this many samples.
 const FALSE: f64 = 100.0;
 
 /// A method with a larger share of false flags is not recommended while there is another.

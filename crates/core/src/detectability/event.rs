@@ -23,7 +23,7 @@ pub enum Kind {
     RunOf10,
     /// All samples of a held value, by the same error: in records that hold values.
     Held,
-    /// One to five samples at the value that stands for no value: in records that have such.
+    /// One to five samples at the fill value: in records that have such.
     Dropout,
 }
 

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-/// A record of at most so many samples is taken whole.
+/// A record of at most this many samples is taken whole.
 pub const WHOLE: usize = 65_536;
 
 /// Pieces of a longer one …
 const PIECES: usize = 16;
-/// … with so many samples each.
+/// … with this many samples each.
 const PIECE: usize = WHOLE / PIECES;
 
 /// The positions of the samples that are taken of `n`, ascending; none: all of them. Pieces lie at equal distances.

@@ -102,7 +102,7 @@ impl Ground {
         Input { companions: &self.companions, ..Input::new(series, self.rate.as_ref()) }
     }
 
-    /// How many wild points are put in at once: so many that a small share of the samples becomes wild.
+    /// How many wild points are put in at once: few enough that only a small share of the samples becomes wild.
     pub(super) fn events_at_once(&self) -> usize {
         let samples: usize = self.wanted.iter().map(|w| w.kind.length()).sum();
         #[expect(

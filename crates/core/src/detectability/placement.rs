@@ -11,7 +11,7 @@ const MARGIN: usize = 3;
 /// A held value that is longer than this is left alone.
 const LONGEST_HELD: usize = 20;
 
-/// A dropout has at most so many samples.
+/// A dropout has at most this many samples.
 const LONGEST_DROPOUT: usize = 5;
 
 /// The places of a record.

@@ -15,7 +15,7 @@ const GAIN: f64 = 0.005;
 
 /// What a search is allowed.
 pub struct Budget<'a> {
-    /// At most so many outliers on the record as it is.
+    /// At most this many outliers on the record as it is.
     pub flags: usize,
     /// True as soon as no further settings are to be tried.
     pub is_over: &'a dyn Fn() -> bool,

@@ -126,7 +126,7 @@ impl Recent {
     }
 }
 
-/// Extrapolates a polynomial of one order through up to so many points.
+/// Extrapolates a polynomial of one order through up to this many points.
 #[derive(Debug, Clone)]
 pub struct Extrapolator {
     /// Order of the polynomial.
@@ -145,7 +145,7 @@ impl Extrapolator {
         Self { order, points, weights: vec![Vec::new(); AHEAD + 1], fit: Scratch::default() }
     }
 
-    /// The fitted polynomial's value at `t`, which is [`Recent::ahead`] by so many steps; quick while the points are
+    /// The fitted polynomial's value at `t`, which is [`Recent::ahead`] by this many steps; quick while the points are
     /// even. It differs from [`Extrapolator::exact`] by the rounding of the times: a caller must not let that decide.
     #[must_use]
     #[inline]

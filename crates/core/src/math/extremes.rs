@@ -173,7 +173,7 @@ mod tests {
             for _ in 0..n / 2 {
                 assert!(certain(extremes.next(0.5, || 0.5, &check)).is_some());
             }
-            // A look for each piece of a pass: so many passes go through the values.
+            // A look for each piece of a pass: this many passes go through the values.
             let passes = looks.load(Ordering::Relaxed) * pieces::PIECE / n;
             assert!(passes < 40, "{passes} passes");
         }

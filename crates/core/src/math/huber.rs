@@ -21,7 +21,7 @@ pub fn beta(c: f64) -> f64 {
     2.0 * cdf - 1.0 - 2.0 * c * pdf + 2.0 * c * c * (1.0 - cdf)
 }
 
-/// The scale of the last so many residuals, each step from the one before.
+/// The scale of the last this many residuals, each step from the one before.
 #[derive(Debug, Clone)]
 pub struct HuberScale {
     /// Squared residuals in a ring of `window`, then zeros up to whole lanes.
@@ -39,11 +39,11 @@ pub struct HuberScale {
     square: f64,
 }
 
-/// Sums run in so many lanes of fixed order.
+/// Sums run in this many lanes of fixed order.
 const LANES: usize = 8;
 
 impl HuberScale {
-    /// A scale over `window` residuals, `initial` until there are so many, at least `floor` afterwards.
+    /// A scale over `window` residuals, `initial` until there are this many, at least `floor` afterwards.
     #[must_use]
     pub fn new(window: usize, c: f64, update: Update, initial: f64, floor: f64) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "windows are small")]

@@ -35,7 +35,7 @@ impl LineOfFive {
 /// How many lines [`LineOfFive::ahead`] works out at a time.
 pub const AHEAD: usize = 5 * LANES;
 
-/// Lines five points apart have their points in the same places of the ring: so many go side by side.
+/// Lines five points apart have their points in the same places of the ring: this many go side by side.
 pub const LANES: usize = 4;
 
 /// A figure of lines five points apart.

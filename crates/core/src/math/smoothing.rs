@@ -22,11 +22,15 @@ pub fn residual_deviation<E>(t: &[f64], y: &[f64], interval: f64, check: &impl C
         return Ok(0.0);
     }
     let bands = Bands { t, y, unit: interval, lambda: HALF_POWER_AT_20 };
-    let gamma = bands.solve(check)?;
+    let mut residuals = bands.solve(check)?;
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
     let n = y.len() as f64;
-    let mean = bands.sum_over_residuals(&gamma, |r| r, check)? / n;
-    let squares = bands.sum_over_residuals(&gamma, |r| (r - mean) * (r - mean), check)?;
+    let mean = bands.sum_of_residuals(&mut residuals, check)? / n;
+    let mut squares = 0.0;
+    for piece in residuals.chunks(PIECE) {
+        check()?;
+        piece.iter().for_each(|r| squares += (r - mean) * (r - mean));
+    }
     Ok((squares / (n - 1.0)).sqrt())
 }
 
@@ -131,7 +135,9 @@ impl Bands<'_> {
                 self.eliminate(j, &steps, &mut carried);
             });
         }
-        let mut gamma = vec![0.0; self.rows()];
+        // Room for what the spline leaves of all values.
+        let mut gamma = Vec::with_capacity(self.y.len());
+        gamma.resize(self.rows(), 0.0);
         let [mut next, mut second] = [0.0; 2];
         let mut eliminated = Vec::with_capacity(BLOCK);
         for (rows, mut carried) in self.blocks().zip(at_begin).collect::<Vec<_>>().into_iter().rev() {
@@ -147,8 +153,8 @@ impl Bands<'_> {
         Ok(gamma)
     }
 
-    /// The sum of `term` over what the spline leaves of the values.
-    fn sum_over_residuals<E>(&self, gamma: &[f64], term: impl Fn(f64) -> f64, check: &impl Check<E>) -> Result<f64, E> {
+    /// Puts what the spline leaves of the values in the place of `gamma`, and gives its sum.
+    fn sum_of_residuals<E>(&self, gamma: &mut Vec<f64>, check: &impl Check<E>) -> Result<f64, E> {
         let mut sum = 0.0;
         // What rows before take off the next two samples: each takes `lambda Q gamma` off three.
         let [mut once, mut twice] = [[0.0; 2]; 2];
@@ -158,13 +164,17 @@ impl Bands<'_> {
             for j in rows {
                 let off = steps.q(j).map(|q| self.lambda * q * gamma[j]);
                 let y = self.value(j);
-                sum += term(y - (y - twice[0] - once[0] - off[0]));
+                // No later row needs this `gamma`.
+                gamma[j] = y - (y - twice[0] - once[0] - off[0]);
+                sum += gamma[j];
                 (twice, once) = ([once[1], 0.0], [off[1], off[2]]);
             }
         }
         for (i, off) in (self.rows()..).zip([[twice[0], once[0]], [once[1], 0.0]]) {
             let y = self.value(i);
-            sum += term(y - (y - off[0] - off[1]));
+            let residual = y - (y - off[0] - off[1]);
+            sum += residual;
+            gamma.push(residual);
         }
         Ok(sum)
     }

@@ -37,7 +37,7 @@ pub const VOTERS: &[&str] = &[
     "kalman",
 ];
 
-/// So many methods run at the same time: what bounds the memory.
+/// This many methods run at the same time: what bounds the memory.
 const AT_ONCE: usize = 4;
 
 /// How many must agree: half of all.
@@ -267,8 +267,8 @@ impl Poll {
     }
 }
 
-/// The verdict on a sample that so many methods flag, suspect and can judge, when `votes` of them must agree: suspect
-/// where so many flag or suspect it, unchecked where so few can judge it that they cannot agree.
+/// The verdict on a sample that this many methods flag, suspect and can judge, when `votes` of them must agree: suspect
+/// where this many flag or suspect it, unchecked where so few can judge it that they cannot agree.
 #[must_use]
 pub fn verdict_of([flagged, suspected, checked]: [usize; 3], votes: usize) -> Verdict {
     if flagged >= votes {

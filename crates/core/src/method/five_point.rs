@@ -128,7 +128,7 @@ impl Model for Line {
 }
 
 impl Line {
-    /// What is predicted of the next so many samples, should each of them be accepted; true when each is for certain.
+    /// What is predicted of the next this many samples, should each of them be accepted; true when each is for certain.
     #[inline]
     fn all_agree(&self, t: &[f64; AHEAD], y: &[f64; AHEAD], said: &mut [Prediction; AHEAD]) -> bool {
         let scale = self.k * self.sigma;

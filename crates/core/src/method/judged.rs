@@ -55,7 +55,7 @@ pub struct Part<'a> {
 pub struct Damaged<'a> {
     /// The segment as it was measured.
     pub segment: &'a Segment<'a>,
-    /// The knobs of the method.
+    /// The parameters of the method.
     pub settings: &'a Settings,
     /// What it said of the segment.
     pub judged: Part<'a>,

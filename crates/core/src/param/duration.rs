@@ -13,7 +13,7 @@ pub(super) fn parse(text: &str) -> Option<f64> {
     Some(value * seconds).filter(|s| s.is_finite() && *s > 0.0)
 }
 
-/// The text of so many seconds, which reads back as the same.
+/// The text of this many seconds, which reads back as the same.
 pub(super) fn text(seconds: f64) -> String {
     let exact = |(name, unit): &(&str, f64)| {
         let count = seconds / unit;

@@ -41,7 +41,7 @@ impl Settings {
         }
     }
 
-    /// The same settings for samples that are so many seconds apart, which durations are counted in.
+    /// The same settings for samples that are this many seconds apart, which durations are counted in.
     #[must_use]
     pub fn at_interval(&self, seconds: f64) -> Self {
         Self { interval: Some(seconds).filter(|s| s.is_finite() && *s > 0.0), ..self.clone() }

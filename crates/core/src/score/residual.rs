@@ -30,15 +30,17 @@ pub fn spline_residual(outcome: &Outcome, series: &Series<'_>, stop: &Stop) -> R
         return Ok(None);
     }
     let before = |s: &Range<usize>| deviation(series, &series.t[s.clone()], &series.y[s.clone()], stop);
-    let Some(before) = pooled(&detection.segments, before)? else { return Ok(None) };
+    let before = || pooled(&detection.segments, before);
     if outcome.outliers.is_empty() {
-        return Ok(Some(SplineResidual { before, after: before }));
+        return Ok(before()?.map(|before| SplineResidual { before, after: before }));
     }
     let after = |s: &Range<usize>| {
         let (t, y) = repaired(outcome, series, s, stop)?;
         deviation(series, &t, &y, stop)
     };
-    Ok(pooled(&detection.segments, after)?.map(|after| SplineResidual { before, after }))
+    // A record without gaps is one segment: side by side, both take the time of one.
+    let (before, after) = rayon::join(before, || pooled(&detection.segments, after));
+    Ok(before?.zip(after?).map(|(before, after)| SplineResidual { before, after }))
 }
 
 /// Deviation and number of samples; none for fewer than three.

@@ -55,9 +55,9 @@ pub(crate) struct Kind {
     pub(crate) held: bool,
     /// The first half at 10 Hz, the second at 1 Hz.
     pub(crate) two_rates: bool,
-    /// At least so many wild samples in a hundred are flagged …
+    /// At least this many wild samples in a hundred are flagged …
     pub(crate) found: f64,
-    /// … and at most so many good ones.
+    /// … and at most this many good ones.
     pub(crate) falsely: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The session file: TOML, meant to be read and diffed. Every value of every knob is written, so that a later
+//! The session file: TOML, meant to be read and diffed. Every value of every parameter is written, so that a later
 //! default cannot change an old result.
 
 mod measurement;

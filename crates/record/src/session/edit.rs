@@ -1,4 +1,4 @@
-//! Changes of a session that can be taken back and made again.
+//! Changes of a session that can be undone and redone.
 
 use super::{Session, Setup};
 use crate::review::Change;
@@ -22,7 +22,7 @@ pub enum Edit {
         /// What it is.
         after: Box<Setup>,
     },
-    /// Several edits, made in their order and taken back together.
+    /// Several edits, made in their order and undone together.
     Several(Vec<Edit>),
 }
 

@@ -175,7 +175,7 @@ impl Evidence {
     }
 }
 
-/// What is known about the sample of `row` at `position`; none for a normal one that nobody decided on.
+/// What is known about the sample of `row` at `position`; none for an undecided normal one.
 #[must_use]
 pub fn evidence(session: &Session, channel: &Walk<'_>, row: usize, position: usize) -> Option<Evidence> {
     let outcome = channel.outcome;

@@ -1,8 +1,8 @@
 //! The journal of a session: what was changed since it was saved, one line per change, so that work outlives the
-//! program. Here is what the lines mean and how they are made and taken back in; files are the business of the
+//! program. Here is what the lines mean and how they are made and recovered; files are the business of the
 //! screen.
 //!
-//! The first entry about a channel holds all of its plan, so that a journal can be taken back in whatever method the
+//! The first entry about a channel holds all of its plan, so that a journal can be recovered whatever method the
 //! record is opened with; the later ones hold what they changed.
 
 use std::path::PathBuf;
@@ -32,7 +32,7 @@ pub struct Header {
     pub base: Option<Base>,
     /// How many of the entries that follow say where the work began, and are no changes themselves.
     pub begun: usize,
-    /// How many changes that are not saved are in those first entries (after work was taken back in, say).
+    /// How many changes that are not saved are in those first entries (for example after work was recovered).
     pub carried: usize,
 }
 

@@ -26,7 +26,7 @@ pub struct Opened {
     pub session: Session,
     /// Its record.
     pub track: Track,
-    /// What the user should know: decisions that no longer fit changed data, say.
+    /// What the user should know: for example decisions that no longer fit changed data.
     pub notes: Vec<String>,
     /// For each plan of the session, whether its file has it; [`open_all`] adds those that it does not have.
     pub own: Vec<bool>,

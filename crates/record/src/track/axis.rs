@@ -378,7 +378,7 @@ fn like_clock(of_day: i128, sample: &str) -> String {
     form.text(rounded(of_day, form.digits).rem_euclid(i128::from(DAY)))
 }
 
-/// What stands between date and time in a sample, the time, and the zone with any blanks before it.
+/// The separator of date and time in a sample, the time, and the zone with any blanks before it.
 fn after_date(rest: &str) -> (&str, &str, &str) {
     let time_at = rest.find(|c: char| c.is_ascii_digit()).unwrap_or(rest.len());
     let (mark, rest) = rest.split_at(time_at);

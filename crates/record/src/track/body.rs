@@ -104,7 +104,7 @@ pub(crate) struct Body {
     pub(crate) share: Share,
 }
 
-/// Bytes of each row that are left free for whatever is done with the record next: looking at its noise, say.
+/// Bytes of each row that are left free for whatever is done with the record next, for example looking at its noise.
 const AFTERWARDS: u64 = 32;
 
 impl Plan<'_> {
@@ -136,7 +136,7 @@ pub(crate) fn truth(cell: &[u8]) -> Option<bool> {
 }
 
 impl Body {
-    /// Nothing yet, with room for so many rows.
+    /// Nothing yet, with room for this many rows.
     pub(crate) fn new(plan: &Plan<'_>, rows: usize) -> Self {
         let slots = plan.slots.iter().flatten().max().map_or(0, |s| s + 1);
         let column = || Numbers { values: Vec::with_capacity(rows), ..Numbers::default() };
@@ -148,7 +148,7 @@ impl Body {
         }
     }
 
-    /// The memory that so many rows take, with the times that are made of their moments.
+    /// The memory that this many rows take, with the times that are made of their moments.
     fn bytes(&self, rows: usize) -> u64 {
         let times = if self.moments.is_some() { 2 } else { 1 };
         (rows as u64).saturating_mul(8 * (self.numbers.len() as u64 + times) + AFTERWARDS)
@@ -218,7 +218,7 @@ pub(crate) struct Whole {
 }
 
 impl Whole {
-    /// Nothing yet, of a text of about so many bytes after so many lines.
+    /// Nothing yet, of a text of about this many bytes after this many lines.
     pub(crate) fn new(plan: &Plan<'_>, bytes: u64, lines: u64) -> Self {
         let rows = usize::try_from(bytes).unwrap_or(usize::MAX) / plan.record_bytes;
         Self { body: Body::new(plan, rows + rows / 16), lines }

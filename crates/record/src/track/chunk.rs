@@ -45,7 +45,7 @@ impl<'a> Chunk<'a> {
         self.layout = plan.layout.without_idle_quote(&text[range.clone()]);
         let quick = Quick::new(self.layout, plan.reading, plan.timing.as_ref(), &plan.slots, plan.counts);
         let mut quick_row = QuickRow { values: vec![f64::NAN; self.body.numbers.len()], ..QuickRow::default() };
-        // A header of numbers that comes again is no row, and is not seen by a quick look.
+        // A header of numbers that comes again is not a row, and is not seen by a quick look.
         let quick = quick.filter(|quick| {
             let mut lines = plan.repeats.iter().map(|line| [line.as_slice(), &[self.layout.line_end]].concat());
             !lines.any(|line| quick.read(&line, &mut quick_row).is_some())

@@ -7,7 +7,7 @@ use super::Source;
 pub enum Extent {
     /// All there is.
     All,
-    /// So many bytes from its start; a source may have been appended to since.
+    /// This many bytes from its start; a source may have been appended to since.
     First(u64),
 }
 

@@ -20,7 +20,7 @@ pub(crate) struct ColumnFacts {
     /// Its unit, where the file tells it.
     pub(crate) unit: Option<String>,
     pub(crate) decimals: Decimals,
-    /// Why it is no channel, where it is none.
+    /// Why it is not a channel, where it is none.
     pub(crate) aside: Option<Aside>,
 }
 
@@ -31,7 +31,7 @@ pub(crate) enum Decimals {
     AsShown,
     /// As many as each number needs: no digit of it was chosen by somebody.
     AsNeeded,
-    /// So many.
+    /// A number of them.
     So(usize),
 }
 

@@ -22,7 +22,7 @@ use crate::memory::{Full, Share};
 pub(crate) enum Unfit {
     /// It is not the UTF-8 that it was taken for.
     NotUtf8,
-    /// It cannot be read, or it is no text: reading it whole tells what and where.
+    /// It cannot be read, or it is not a text file: reading it whole tells what and where.
     Unreadable,
     /// A line is longer than there is memory.
     Full(Full),
@@ -166,7 +166,7 @@ pub(crate) struct Feed<'a> {
     /// What has been read and not been given yet.
     tail: Vec<u8>,
     line_end: u8,
-    /// Whether the text is to be looked at for what is no text, and whether it must be UTF-8.
+    /// Whether the text is to be looked at for bytes that are not text, and whether it must be UTF-8.
     check: Option<Check>,
     ended: bool,
     /// Asked before each read.
@@ -229,7 +229,7 @@ impl<'a> Feed<'a> {
         Self { wanted, ..self }
     }
 
-    /// Reads at least so many bytes, if there are as many, that the next wave will start with.
+    /// Reads at least this many bytes, if there are as many, that the next wave will start with.
     pub(crate) fn peek(&mut self, size: usize) -> Result<&[u8], Unfit> {
         let more = size.saturating_sub(self.tail.len());
         self.ended |= (&mut self.supply).take(more as u64).read_to_end(&mut self.tail)? < more;

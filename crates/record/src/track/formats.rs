@@ -120,7 +120,7 @@ pub(crate) struct Known {
 pub(crate) struct Label {
     /// Its unit, where the format tells it.
     pub(crate) unit: Option<String>,
-    /// Why it is no channel, where it is none.
+    /// Why it is not a channel, where it is none.
     pub(crate) aside: Option<Aside>,
 }
 

@@ -70,7 +70,7 @@ pub(crate) struct Head {
     pub(crate) styles: Vec<Option<Style>>,
     /// True where every row has the same length.
     pub(crate) fixed_width: bool,
-    /// For each column, why it is no channel, as far as the format of the file tells.
+    /// For each column, why it is not a channel, as far as the format of the file tells.
     pub(crate) asides: Vec<Option<Aside>>,
     /// The format of the file, where one is known.
     pub(crate) format: Option<&'static Format>,
@@ -357,7 +357,7 @@ impl Seen {
     }
 }
 
-/// The first row, and what the lines above it say: as the options have it, or as it is recognised.
+/// The first row, and what the lines above it say: as the options have it, or as it is detected.
 fn told_heading(
     lines: &[Line],
     first: usize,

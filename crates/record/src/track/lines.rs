@@ -80,7 +80,7 @@ fn mark_footer(lines: &mut [FileLine], count: usize) {
     }
 }
 
-/// Of so many lines those that tell what is what.
+/// Of this many lines those that tell what is what.
 fn shortened(mut lines: Vec<FileLine>, most: usize) -> Vec<FileLine> {
     let header = lines.iter().position(|l| matches!(l.part, LinePart::Header | LinePart::Row)).unwrap_or(0);
     let below = lines.iter().filter(|l| l.part == LinePart::Footer).count().min(most / 6);

@@ -117,7 +117,7 @@ pub(super) struct Understood {
     stored_table: Option<usize>,
 }
 
-/// So many lines of rows are kept to be shown.
+/// This many lines of rows are kept to be shown.
 const LINES_KEPT: usize = 4096;
 
 /// A number that is written with a decimal comma between commas would be two cells.
@@ -176,7 +176,7 @@ impl Understood {
         Ok(Self { head, timing, roles, encoding, packing, facts, path, rules, options, viewed, made_of, stored_table })
     }
 
-    /// Parses the rows of a feed that begins with the first of them and has about so many bytes; gives the feed of
+    /// Parses the rows of a feed that begins with the first of them and has about this many bytes; gives the feed of
     /// the first pass too.
     pub(super) fn parse<'a>(
         &self,

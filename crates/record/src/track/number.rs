@@ -29,7 +29,7 @@ pub(crate) const POWERS: [f64; 23] = [
 /// How the cells of a file are read.
 #[derive(Debug, Clone, Default)]
 pub struct Reading {
-    /// True when `1,5` means one and a half.
+    /// True when a comma is the decimal sign.
     pub(crate) decimal_comma: bool,
     texts: Vec<String>,
     values: Vec<f64>,
@@ -73,7 +73,7 @@ impl Reading {
         if self.is_missing(value) { Cell::Missing } else { Cell::Number(value) }
     }
 
-    /// True when the user told that `value` means "no value".
+    /// True when the user told that `value` is a fill value.
     #[inline]
     pub(crate) fn is_missing(&self, value: f64) -> bool {
         self.values.contains(&value)

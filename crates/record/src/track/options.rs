@@ -2,7 +2,7 @@
 
 use super::{Delimiter, Encoding, Pattern, TimeUnit};
 
-/// What the user tells about a file. What is not told is recognised.
+/// What the user tells about a file. What is not told is detected.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct LoadOptions {
     /// The time column, by name or as `#3`; `sample` for the sample number. Recognised: the column that looks most
@@ -18,9 +18,9 @@ pub struct LoadOptions {
     pub truth: Option<String>,
     /// Cells that mean "no value", besides the usual ones; numbers are compared by value.
     pub missing: Vec<String>,
-    /// What stands between two cells.
+    /// The field separator.
     pub delimiter: Option<Delimiter>,
-    /// True when `1,5` means one and a half.
+    /// True when a comma is the decimal sign.
     pub decimal_comma: Option<bool>,
     /// The encoding of the text, where it is not UTF-16 with its mark.
     pub encoding: Option<Encoding>,
@@ -48,7 +48,7 @@ pub struct LoadOptions {
     pub names: Vec<String>,
     /// Which table of a file with several, from 1. Recognised: the longest.
     pub table: Option<usize>,
-    /// By which rules what is not told is recognised.
+    /// By which rules what is not told is detected.
     pub rules: Rules,
 }
 

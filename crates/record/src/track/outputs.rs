@@ -141,7 +141,7 @@ impl Outputs {
         write(&mut std::io::sink())
     }
 
-    /// Gives all files their names. When one cannot get its name, or the names do not get to the disk, all are taken
+    /// Gives all files their names. When one cannot get its name, or the names do not get to the disk, all are rolled
     /// back.
     ///
     /// # Errors
@@ -398,7 +398,7 @@ mod tests {
     /// while a test looks at who holds what.
     static PROCESSES: RwLock<()> = RwLock::new(());
 
-    /// A run that writes its set in `dir` and is killed at the step `at`, if it has so many.
+    /// A run that writes its set in `dir` and is killed at the step `at`, if it has this many.
     fn killed_at(at: usize, dir: &Path) -> std::process::Output {
         let mut command = std::process::Command::new(std::env::current_exe().unwrap());
         command.args(["--exact", "track::outputs::tests::killed_run"]);

@@ -39,7 +39,7 @@ pub(crate) fn parse(feed: &mut Feed<'_>, bytes: u64, first_line: u64, plan: &Pla
     parse_by(feed, Whole::new(plan, bytes, first_line - 1), plan, CHUNK)
 }
 
-/// [`parse`] by chunks of at least so many bytes.
+/// [`parse`] by chunks of at least this many bytes.
 fn parse_by(feed: &mut Feed<'_>, mut whole: Whole, plan: &Plan<'_>, chunk: usize) -> Result<Body, Failure> {
     let (mut before, mut bodies): (Vec<Body>, Vec<Body>) = (Vec::new(), Vec::new());
     let (mut wave, mut ahead) = (Vec::new(), Vec::new());

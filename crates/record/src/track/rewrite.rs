@@ -239,7 +239,7 @@ impl<'a> Editor<'a> {
         Ok(written)
     }
 
-    /// What stands between two rows, or before the first.
+    /// The separator between two rows, or before the first.
     fn between(&self, lines: &[u8], pen: &mut Pen<'_>) -> Result<()> {
         match &self.beside {
             Some(beside) => beside.between(lines, pen),

@@ -19,7 +19,7 @@ use crate::error::{Error, Result};
 pub enum Standing {
     /// It is as it was.
     Same,
-    /// It begins with what was loaded, and so many data rows follow.
+    /// It begins with what was loaded, and this many data rows follow.
     Grown {
         /// How many.
         rows: usize,
@@ -147,7 +147,7 @@ fn line_end_with(path: &Path, sha256: &str) -> io::Result<Option<u64>> {
 /// What is longer is looked at in pieces.
 const LONGEST_LINE: u64 = 1 << 20;
 
-/// Data rows after those of `track`. Where it ended in the middle of a line, the rest of that line is no row.
+/// Data rows after those of `track`. Where it ended in the middle of a line, the rest of that line is not a row.
 fn rows_after(path: &Path, track: &Track) -> io::Result<usize> {
     let mut file = File::open(path)?;
     let mut before = [b'\n'];

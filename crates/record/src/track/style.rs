@@ -37,7 +37,7 @@ impl Style {
         })
     }
 
-    /// So many decimals.
+    /// This many decimals.
     pub(crate) fn with_decimals(decimals: usize) -> Self {
         Self { decimals, ..Self::default() }
     }
@@ -110,7 +110,7 @@ fn number_in(cell: &str, reading: &Reading) -> Option<std::ops::Range<usize>> {
     odd(cell.as_bytes(), reading.decimal_comma).map(|odd| odd.start..odd.end)
 }
 
-/// What stands between thousands in a number.
+/// The separator of thousands in a number.
 fn separator(number: &str, reading: &Reading) -> Option<char> {
     let thousands = odd(number.as_bytes(), reading.decimal_comma).is_some_and(|o| o.oddity == Oddity::Thousands);
     let point = if reading.decimal_comma { ',' } else { '.' };

@@ -15,7 +15,7 @@ mod units;
 pub(crate) use header::{Heading, heading, named_cells};
 pub(crate) use rows::{Table, tables};
 
-/// A row with more cells is no row of a table.
+/// A row with more cells is not a row of a table.
 pub(crate) const MOST_COLUMNS: usize = 100_000;
 
 /// Why lines are no lines of a table.
@@ -70,7 +70,7 @@ pub(crate) struct Lines<'a> {
 }
 
 impl Lines<'_> {
-    /// The first lines: until `most` of them can be rows, or so many bytes have been passed.
+    /// The first lines: until `most` of them can be rows, or this many bytes have been passed.
     ///
     /// # Errors
     /// [`NoTable`] for a quoted cell that does not end, and for a row of too many cells.

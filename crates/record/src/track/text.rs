@@ -18,8 +18,8 @@ use super::{Encoding, Extent, Format, Source, Wanted, windows_1252};
 use crate::error::{Error, Result};
 use crate::memory::{Full, Share, limit};
 
-/// A small packed file can unpack to a thousand times its size: more than this is no record that was packed by mistake
-/// or by somebody who means harm, but one to be unpacked on purpose.
+/// A small packed file can unpack to a thousand times its size: more than this is not a record that was packed by
+/// mistake or by somebody who means harm, but one to be unpacked on purpose.
 const MOST_UNPACKED: u64 = 4 << 30;
 
 /// The text of a source as the tokeniser takes it: ASCII-compatible bytes, unpacked, without byte order mark.
@@ -63,7 +63,7 @@ impl std::ops::Deref for Stored<'_> {
     }
 }
 
-/// The bytes of a source as they are stored, so many of them.
+/// The bytes of a source as they are stored, this many of them.
 ///
 /// # Errors
 /// [`Error::Io`] when the file cannot be read, [`Error::Input`] for a folder, [`Error::Memory`].

@@ -48,7 +48,7 @@ pub enum Zero {
     Labview,
     /// The year 0, as Matlab counts days.
     Matlab,
-    /// So many seconds after 1970, as the file tells.
+    /// This many seconds after 1970, as the file tells.
     At(i64),
 }
 

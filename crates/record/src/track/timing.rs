@@ -197,7 +197,7 @@ pub(crate) fn duration(text: &[u8]) -> Option<i64> {
     told.days.is_none().then_some(sign * told.of_day)
 }
 
-/// A number of units after a zero that lies so many seconds after 1970.
+/// A number of units after a zero that lies this many seconds after 1970.
 fn since(text: &[u8], unit_ns: i64, zero_s: i64, decimal_comma: bool) -> Option<i64> {
     #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "seconds of a calendar")]
     match timestamp::count(text, unit_ns, decimal_comma) {

@@ -8,7 +8,7 @@ use super::Delimiter;
 /// How bytes fall into records and cells.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Layout {
-    /// What stands between two cells.
+    /// The field separator.
     pub(crate) delimiter: Delimiter,
     /// The quote character; none where a quote is a character like any other.
     pub(crate) quote: Option<u8>,

@@ -42,7 +42,8 @@ fn is_mesh(start: &[u8]) -> bool {
     }
 }
 
-/// A kind of file that is no text: how its bytes begin (after so many others), what it is, and what converts it.
+/// A kind of file that is not a text file: how its bytes begin (after this many others), what it is, and what converts
+/// it.
 struct Binary {
     at: usize,
     begins: &'static [u8],
@@ -176,7 +177,7 @@ const BINARIES: [Binary; 20] = [
     },
 ];
 
-/// What is no text and is refused by its name: what it is, and what converts it.
+/// What is not a text file and is refused by its name: what it is, and what converts it.
 pub fn refused() -> impl Iterator<Item = (&'static str, &'static str)> {
     BINARIES.iter().map(|b| (b.name, b.help)).chain([(ASTERIX, ASTERIX_HELP)])
 }
@@ -197,7 +198,7 @@ fn is_asterix(bytes: &[u8]) -> bool {
         && bytes[..bytes.len().min(64)].contains(&0)
 }
 
-/// Refuses what is no text by its name, from its first bytes as they are stored.
+/// Refuses what is not a text file by its name, from its first bytes as they are stored.
 ///
 /// # Errors
 /// [`Error::Input`] naming what it is and what converts it.

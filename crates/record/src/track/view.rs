@@ -36,7 +36,7 @@ pub(crate) struct Want {
 pub(crate) struct Field {
     pub(crate) name: String,
     pub(crate) unit: String,
-    /// Why it is no channel, where it is none.
+    /// Why it is not a channel, where it is none.
     pub(crate) aside: Option<Aside>,
     pub(crate) spelling: Spelling,
     pub(crate) nothing: Nothing,
@@ -86,7 +86,7 @@ impl Nothing {
 pub(crate) enum Cell {
     /// A stretch of the text; an empty one is a cell without a value.
     At(Range<usize>),
-    /// A stretch that means "no value", and can be overwritten by one.
+    /// A stretch that is a fill value, and can be overwritten by one.
     Missing(Range<usize>),
     /// A text made of others, which no change can reach.
     Made(String),
@@ -120,7 +120,7 @@ pub(crate) struct Sheet {
     pub(crate) track: Option<usize>,
     /// What was assumed, in a line each.
     pub(crate) said: Vec<String>,
-    /// True when `1,5` means one and a half.
+    /// True when a comma is the decimal sign.
     pub(crate) decimal_comma: bool,
     /// True where values stand in columns of a fixed width.
     pub(crate) fixed_width: bool,

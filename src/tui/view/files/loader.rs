@@ -58,7 +58,7 @@ struct Room {
 }
 
 impl Room {
-    /// In a window of so many lines.
+    /// In a window of this many lines.
     fn of(height: u16) -> Self {
         match height {
             0..30 => Self { warnings: 3, rows: 1, file: 4 },
@@ -68,7 +68,8 @@ impl Room {
     }
 }
 
-/// At most so many lines: what stands right above the rows, and the first of these; the last one where it is no row.
+/// At most this many lines: what stands right above the rows, and the first of these; the last one where it is not a
+/// row.
 fn around_header(lines: &[FileLine], most: usize) -> Vec<FileLine> {
     if lines.len() <= most {
         return lines.to_vec();

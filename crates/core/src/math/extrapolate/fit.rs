@@ -52,7 +52,7 @@ impl Scratch {
     }
 }
 
-/// Sums run in so many lanes of fixed order.
+/// Sums run in this many lanes of fixed order.
 const LANES: usize = 4;
 
 /// The value at `at` of the line or parabola closest to the points, by the moments of the centred and scaled times:

@@ -5,7 +5,7 @@ use crate::math::pieces::{self, Check};
 /// Values of which two are known between which the wanted ones lie, almost surely.
 const SAMPLE: usize = 4096;
 
-/// Up to so many values are copied and put in order as far as needed.
+/// Up to this many values are copied and put in order as far as needed.
 const FEW: usize = 8 * SAMPLE;
 
 /// The values of two ranks (from 0, ascending, one apart at most) among `value(0 .. n)`, none of which may be NaN: in

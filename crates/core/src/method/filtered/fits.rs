@@ -8,9 +8,9 @@ use crate::stop::{Stop, Stopped};
 /// Which samples a polynomial goes through beside the one it is asked about.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::method) struct Fit {
-    /// So many before it, or as many as there are.
+    /// This many before it, or as many as there are.
     pub(in crate::method) before: usize,
-    /// So many after it, or as many as there are.
+    /// This many after it, or as many as there are.
     pub(in crate::method) after: usize,
     /// Order of the polynomial.
     pub(in crate::method) order: usize,

@@ -43,7 +43,7 @@ impl Tuning {
     }
 }
 
-/// Samples in a start group; the least-squares fit below is written for so many.
+/// Samples in a start group; the least-squares fit below is written for this many.
 const GROUP: usize = 4;
 
 /// The filter.

@@ -60,7 +60,7 @@ pub fn judge_joint(channels: &[&Series<'_>], settings: &Settings, stop: &Stop) -
     Ok(parts.collect())
 }
 
-/// The gate in deviations when so many channels are tested together: for one it is what `c` is for it alone.
+/// The gate in deviations when this many channels are tested together: for one it is what `c` is for it alone.
 pub(super) fn limit(settings: &Settings, channels: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a few channels")]
     let freedom = channels.max(1) as f64;

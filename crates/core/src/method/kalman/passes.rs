@@ -24,7 +24,7 @@ pub(super) trait Record: Sync {
 /// How patches are treated.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plan {
-    /// Runs of so many samples and more are filled.
+    /// Runs of this many samples and more are filled.
     pub(super) patch: usize,
     /// By what.
     pub(super) fill: Fill,

@@ -53,7 +53,7 @@ impl Gate {
     }
 }
 
-/// Start groups accept third differences up to so many noise scales.
+/// Start groups accept third differences up to this many noise scales.
 pub(super) const START_SCALES: f64 = 9.0;
 
 impl Single {

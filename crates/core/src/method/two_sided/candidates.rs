@@ -39,7 +39,7 @@ impl Candidate {
         if self.code == TWO_POINT { 2 } else { self.points.min(3 * (self.order + 1)) }
     }
 
-    /// Standard deviation of its prediction error in noise scales, so many steps ahead of even samples.
+    /// Standard deviation of its prediction error in noise scales, this many steps ahead of even samples.
     #[must_use]
     pub fn error(&self, ahead: usize) -> f64 {
         prediction_error(self.points, self.order, ahead)
@@ -104,7 +104,7 @@ pub struct Candidates {
     closest: Closest,
 }
 
-/// Robust start groups accept third differences up to so many noise scales: two deviations of a third difference.
+/// Robust start groups accept third differences up to this many noise scales: two deviations of a third difference.
 const START_SCALES: f64 = 9.0;
 
 impl Candidates {

@@ -16,7 +16,7 @@ use crate::track::unpacked_name;
 /// How far the work is.
 #[derive(Debug, Clone, Copy)]
 pub enum Step {
-    /// So many files will be read.
+    /// This many files will be read.
     Files(usize),
     /// One of them was read.
     Read,

@@ -156,7 +156,7 @@ struct WrittenCheck {
     channels: Vec<String>,
     #[serde(default = "yes")]
     on: bool,
-    /// The knobs of the check.
+    /// The parameters of the check.
     #[serde(flatten)]
     settings: BTreeMap<String, toml::Value>,
 }

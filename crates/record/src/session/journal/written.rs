@@ -128,7 +128,7 @@ struct WrittenCheck {
 struct WrittenDecision {
     /// From 1, as in sessions.
     row: u64,
-    /// None: the decision was taken back.
+    /// None: the decision was cleared.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     verdict: Option<String>,
     #[serde(default, skip_serializing_if = "String::is_empty")]

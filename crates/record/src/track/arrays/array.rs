@@ -77,8 +77,8 @@ pub(super) enum Fills {
     NetCdf,
 }
 
-/// Axes of an array of this shape, the last of which changes fastest, whose values have so many bytes. Axes of one value are
-/// left out; none where the sizes overflow.
+/// Axes of an array of this shape, the last of which changes fastest, whose values have this many bytes. Axes of one
+/// value are left out; none where the sizes overflow.
 pub(super) fn axes(shape: &[u64], dimensions: &[Option<String>], element: usize) -> Option<Vec<Axis>> {
     let mut stride = element;
     let mut axes = Vec::with_capacity(shape.len());

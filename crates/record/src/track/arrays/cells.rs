@@ -81,7 +81,7 @@ impl Scale {
     }
 }
 
-/// Whole units of so many decimals as a number.
+/// Whole units of this many decimals as a number.
 fn write_decimal(units: i128, decimals: usize, out: &mut Vec<u8>) {
     if units < 0 {
         out.push(b'-');

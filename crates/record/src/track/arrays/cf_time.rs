@@ -24,7 +24,7 @@ pub(super) enum Told {
 }
 
 impl Stamp {
-    /// Units of so many nanoseconds since 1970.
+    /// Units of this many nanoseconds since 1970.
     pub(super) fn since_1970(unit_ns: i128) -> Self {
         Self { unit_ns, zero_ns: 0 }
     }
@@ -95,7 +95,7 @@ impl Stamp {
     }
 }
 
-/// A moment to so many decimals of a second, in nanoseconds.
+/// A moment to this many decimals of a second, in nanoseconds.
 pub(super) fn rounded(ns: i128, digits: u32) -> i128 {
     let unit = 10_i128.pow(9_u32.saturating_sub(digits));
     (ns + unit / 2).div_euclid(unit) * unit

@@ -32,7 +32,7 @@ pub(super) struct Column {
 pub(super) enum Meaning {
     /// Themselves.
     Plain,
-    /// Moments, to so many decimals of a second.
+    /// Moments, to this many decimals of a second.
     Moment { stamp: Stamp, digits: u32 },
     /// Numbers that were made smaller.
     Scaled(Scale),
@@ -41,7 +41,7 @@ pub(super) enum Meaning {
 /// How numbers were made smaller: multiplied by a factor and moved by an offset they are what was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Scale {
-    /// Factor and offset in units of so many decimals.
+    /// Factor and offset in units of this many decimals.
     Exact { factor: i128, offset: i128, decimals: u32 },
     /// As numbers of 32 or 64 bits.
     Float { factor: f64, offset: f64, single: bool },
@@ -70,7 +70,7 @@ impl Scale {
     }
 }
 
-/// A short number as whole units of so many decimals; none where it has more than nine.
+/// A short number as whole units of this many decimals; none where it has more than nine.
 fn decimal(text: &str) -> Option<(i128, u32)> {
     let (digits, power) = text.split_once('e').map_or(Some((text, 0)), |(d, p)| Some((d, p.parse::<i32>().ok()?)))?;
     let (whole, part) = digits.split_once('.').unwrap_or((digits, ""));

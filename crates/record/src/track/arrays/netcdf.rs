@@ -44,7 +44,7 @@ pub(super) fn open(bytes: Vec<u8>) -> Result<Store, Trouble> {
     })
 }
 
-/// A variable, whose records stand so many bytes apart; none where it does not lie in the file.
+/// A variable, whose records stand this many bytes apart; none where it does not lie in the file.
 fn array(variable: &NcVariable, record: u64, file: usize) -> Option<Array> {
     let mut dimensions = variable.dimensions.as_slice();
     let mut kind = match variable.dtype {

@@ -64,7 +64,7 @@ pub(super) enum Kind {
         size: usize,
         big: bool,
     },
-    /// Text of so many bytes.
+    /// Text of this many bytes.
     Text {
         size: usize,
     },

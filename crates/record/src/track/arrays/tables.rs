@@ -21,7 +21,7 @@ enum Key {
     Table(String),
     /// They stand along this dimension.
     Dimension(String),
-    /// They are so many, and the file names no dimensions.
+    /// There are this many, and the file names no dimensions.
     Length(u64),
 }
 

@@ -15,7 +15,7 @@ pub(crate) use text::float;
 #[cfg(feature = "hdf5")]
 pub(crate) use text::text as quoted;
 
-/// A moment in nanoseconds since 1970, which has so many decimals of a second, in ISO 8601.
+/// A moment in nanoseconds since 1970, which has this many decimals of a second, in ISO 8601.
 #[cfg(feature = "hdf5")]
 pub(crate) fn timestamp(ns: i128, digits: u32, out: &mut Vec<u8>) {
     let units = ns.div_euclid(10_i128.pow(9_u32.saturating_sub(digits)));
@@ -26,15 +26,15 @@ pub(crate) fn timestamp(ns: i128, digits: u32, out: &mut Vec<u8>) {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Boolean,
-    /// A whole number of so many bits.
+    /// A whole number of this many bits.
     Signed(u32),
-    /// A whole number from 0 of so many bits.
+    /// A whole number from 0 of this many bits.
     Unsigned(u32),
     Float,
     Double,
     /// A number of 16 bits.
     Half,
-    /// A whole number of units of 10^-scale, of so many digits at most.
+    /// A whole number of units of 10^-scale, of this many digits at most.
     Decimal {
         scale: u32,
         precision: u32,
@@ -78,7 +78,7 @@ impl Unit {
         Self { digits }
     }
 
-    /// So many make a second.
+    /// This many make a second.
     pub(super) fn per_second(self) -> i64 {
         10_i64.pow(self.digits)
     }

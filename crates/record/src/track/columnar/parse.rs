@@ -43,7 +43,7 @@ impl Storage {
         }
     }
 
-    /// What stands for no value in a column of floats that cannot be null.
+    /// The fill value in a column of floats that cannot be null.
     pub(super) fn not_a_number(self) -> Option<Value<'static>> {
         if self.kind.is_float() { self.value("NaN") } else { None }
     }
@@ -93,7 +93,7 @@ fn boolean(text: &str) -> Option<bool> {
     }
 }
 
-/// The nearest number of so many bits.
+/// The nearest number of this many bits.
 #[expect(clippy::cast_possible_truncation, reason = "saturates")]
 fn signed(text: &str, bits: u32) -> Option<i64> {
     let most = i64::MAX >> (64 - bits.clamp(8, 64));
@@ -101,7 +101,7 @@ fn signed(text: &str, bits: u32) -> Option<i64> {
     Some(value.clamp(-most - 1, most))
 }
 
-/// The nearest number from 0 of so many bits, as the bits that store it.
+/// The nearest number from 0 of this many bits, as the bits that store it.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
 fn unsigned(text: &str, bits: u32) -> Option<i64> {
     let most = u64::MAX >> (64 - bits.clamp(8, 64));
@@ -113,7 +113,7 @@ fn finite(text: &str) -> Option<f64> {
     text.parse().ok().filter(|n: &f64| n.is_finite())
 }
 
-/// The nearest whole number of units of 10^-scale, of so many digits.
+/// The nearest whole number of units of 10^-scale, of this many digits.
 fn unscaled(text: &str, scale: u32, precision: u32) -> Option<i128> {
     let value = finite(text)?;
     let digits = format!("{value:.0$}", scale as usize).replace('.', "");

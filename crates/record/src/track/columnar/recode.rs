@@ -169,7 +169,7 @@ impl Recoding<'_> {
         Ok(())
     }
 
-    /// What stands for no value where nulls cannot.
+    /// The fill value where nulls cannot.
     fn empty<V: Stored>(&self, what: &str) -> Result<V, Unpackable> {
         self.storage.not_a_number().and_then(V::of).ok_or_else(|| self.misfit(what))
     }

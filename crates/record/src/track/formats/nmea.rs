@@ -226,7 +226,7 @@ struct Checksum {
     lower: bool,
 }
 
-/// The checksum of the sentence in a line: the exclusive or of what stands between `$` (or `!`) and `*`.
+/// The checksum of the sentence in a line: the exclusive or of what is between `$` (or `!`) and `*`.
 fn checksum(line: &str) -> Option<Checksum> {
     let start = line.find(['$', '!'])?;
     let star = start + line[start..].find('*')?;

@@ -2,7 +2,7 @@
 //! the first of them gets its own, and the next run in the folder finishes what the manifest says, or takes it back.
 //!
 //! A set is committed when its manifest has its name (`.wildpoint-*.set`). Where files get their names in several
-//! folders, the others have a manifest that leads to it. While a set is taken back, the name is `.wildpoint-*.undo`.
+//! folders, the others have a manifest that leads to it. While a set is rolled back, the name is `.wildpoint-*.undo`.
 
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
@@ -16,7 +16,7 @@ use super::hidden::{self, DRAFT, PREFIX};
 use super::identity::{FileId, FileState};
 use super::sync;
 
-/// How the name of a manifest ends, and that of one whose set is taken back.
+/// How the name of a manifest ends, and that of one whose set is rolled back.
 const SET: &str = ".set";
 const UNDO: &str = ".undo";
 /// How the second name of an old content ends.
@@ -68,7 +68,7 @@ pub(super) struct Manifest {
 }
 
 impl Manifest {
-    /// Commits a set: from here on it is finished or taken back, whatever happens.
+    /// Commits a set: from here on it is finished or rolled back, whatever happens.
     pub(super) fn commit(files: &[Naming<'_>]) -> io::Result<Self> {
         let folder = |path: &Path| path.parent().map(Path::to_path_buf).unwrap_or_default();
         let Some(home) = files.first().map(|f| folder(f.target)) else {

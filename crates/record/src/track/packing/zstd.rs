@@ -70,7 +70,7 @@ impl Frames<'_> {
     }
 }
 
-/// The bytes in packed ones, so many at most.
+/// The bytes in packed ones, this many at most.
 pub(crate) fn unpacked(packed: &[u8], most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     Frames { stream: buffered(Box::new(packed)), decoder: FrameDecoder::new(), within: false }

@@ -38,7 +38,7 @@ pub(crate) fn tables(lines: &[Line], reading: &Reading) -> Vec<Table> {
     tables
 }
 
-/// Stretches of lines that are cut where a line that is no row parts rows of two shapes.
+/// Stretches of lines that are cut where a line that is not a row separates rows of two shapes.
 fn runs(lines: &[Line], reading: &Reading) -> Vec<std::ops::Range<usize>> {
     let shape = |line: &Line| {
         let all = vec![true; line.cells.len()];

@@ -80,7 +80,7 @@ pub(crate) fn order_of(cells: &[&str]) -> Option<DateOrder> {
     days.dedup();
     kept.sort_by_key(|(_, m)| span(m));
     let [first, second, ..] = kept.as_slice() else { return None };
-    // The name of a month stands between day and year, unless the steps show another order.
+    // The name of a month is between day and year, unless the steps show another order.
     let named = filled.iter().filter(|c| c.split(|x: char| !x.is_alphabetic()).any(super::is_month_name)).count() * 2
         > filled.len();
     if named && days.len() < 8 {

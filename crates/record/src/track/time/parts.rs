@@ -22,7 +22,7 @@ pub enum Part {
     Clock,
     /// Hours after midnight, perhaps with decimals; written as 1 to 24 where `from_one` is true, and meant from 0 then.
     Hour,
-    /// A number of units of so many nanoseconds.
+    /// A number of units of this many nanoseconds.
     Count {
         /// Nanoseconds in one unit.
         unit_ns: i64,

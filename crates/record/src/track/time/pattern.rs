@@ -14,7 +14,7 @@ pub struct Pattern {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Item {
-    /// Up to so many digits.
+    /// Up to this many digits.
     Digits(Field, usize),
     /// The name of a month.
     Month,

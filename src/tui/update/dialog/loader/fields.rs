@@ -9,12 +9,12 @@ pub struct Field {
     pub name: &'static str,
     /// What it says, in a few words.
     pub help: &'static str,
-    /// What is told, as text; none when it is recognised.
+    /// What is told, as text; none when it is detected.
     pub text: fn(&LoadOptions) -> Option<String>,
     /// The next of its values (1), or the one before (-1), where they can be counted up; the columns of the record are
     /// known.
     pub(super) step: Option<fn(&mut LoadOptions, &[String], isize)>,
-    /// Back to what is recognised.
+    /// Back to what is detected.
     pub(super) clear: fn(&mut LoadOptions),
     /// Takes what was typed, where that makes sense.
     pub(super) take: Option<fn(&mut LoadOptions, &str)>,
