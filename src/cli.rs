@@ -1,10 +1,11 @@
 //! The command line: what can be typed, and what it means.
 
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, nearest, one_of};
 use crate::method::shared::MAX_GAP;
 use crate::repair;
 use crate::session::{DEFAULT_METHOD, OutputValue, Preset, Setup, method_of_id};
@@ -221,6 +222,19 @@ pub enum Command {
     Man,
 }
 
+/// That the first argument names no command, where it is neither an option nor a file and resembles one.
+#[must_use]
+pub fn no_such_command(first: Option<&OsStr>) -> Option<Error> {
+    let name = first?.to_str().filter(|name| !name.starts_with('-') && !name.contains(['.', '/']))?;
+    if Path::new(name).exists() {
+        return None;
+    }
+    let all = Cli::command();
+    let names: Vec<&str> = all.get_subcommands().map(clap::Command::get_name).collect();
+    nearest(name, names.iter().copied()).filter(|near| *near != name)?;
+    Some(Error::usage(format!("{name}: there is no such command, and no such file"), one_of("commands", name, &names)))
+}
+
 impl Command {
     /// Puts the analyst of the configuration into a report that names none.
     ///
@@ -381,13 +395,11 @@ mod tests {
 
     #[test]
     fn the_command_line_is_well_formed() {
-        use clap::CommandFactory;
         Cli::command().debug_assert();
     }
 
     #[test]
     fn every_help_opens_with_an_example_that_can_be_typed() {
-        use clap::CommandFactory;
         let all = Cli::command();
         for command in all.get_subcommands().chain([&all]) {
             let example = command.get_before_help().map(ToString::to_string).unwrap_or_default();

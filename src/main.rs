@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use wildpoint::batch::{self, Ending};
-use wildpoint::cli::{Cli, Color, ConfigArgs, Glyphs as GlyphChoice, Task};
+use wildpoint::cli::{Cli, Color, ConfigArgs, Glyphs as GlyphChoice, Task, no_such_command};
 use wildpoint::error::{Error, Result};
 use wildpoint::manual;
 use wildpoint::memory;
@@ -23,12 +23,15 @@ use wildpoint::tui::{Ended, Look, Misread, Opening, run, still};
 
 fn main() -> ExitCode {
     bear_the_limit_of_files();
+    let first = std::env::args_os().nth(1);
     let mut cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(help) if !help.use_stderr() => help.exit(),
         // Without its colours, since an argument (for example a file's name) is in it.
         Err(wrong) => {
-            let _ = write!(std::io::stderr(), "{}", printable_lines(&wrong.to_string()));
+            let mistyped = no_such_command(first.as_deref()).map(|error| format!("wildpoint: {error}\n"));
+            let told = mistyped.unwrap_or_else(|| wrong.to_string());
+            let _ = write!(std::io::stderr(), "{}", printable_lines(&told));
             return ExitCode::from(2);
         }
     };
@@ -56,7 +59,7 @@ fn main() -> ExitCode {
             ended.and_then(|ending| flushed.map(|()| ending))
         }
         None => {
-            let ended = workbench(&cli);
+            let ended = no_such_command(first.as_deref()).map_or_else(|| workbench(&cli), Err);
             // What is still being written when the workbench has ended, however it did, goes nowhere.
             take_unfinished_away();
             match ended {

@@ -87,6 +87,7 @@ fn columns_methods_and_settings_that_do_not_exist() {
         ("--method hample", &["hample: there is no such method", "did you mean hampel?", "two-sided"]),
         ("--method matched", &["matched needs", "--rate"]),
         ("--method matched --rate speed", &["speed"]),
+        ("--set direction=foward", &["direction = foward: not a legal value", "did you mean forward?"]),
         ("--set kk=3", &["kk: two-sided has no such parameter", "did you mean k?"]),
         ("--set k=-3", &["k = -3", "0.5 .. 1000"]),
         ("--set k=many", &["k = many"]),
@@ -102,6 +103,8 @@ fn columns_methods_and_settings_that_do_not_exist() {
     refused(&lines.iter().map(|(words, wanted)| (words.as_str(), *wanted)).collect::<Vec<_>>());
     refused(&[
         ("methods hample", &["hample", "did you mean hampel?"]),
+        ("clen demo.csv -o new.csv", &["clen: there is no such command", "did you mean clean?", "inspect"]),
+        ("clen", &["clen: there is no such command", "did you mean clean?"]),
         ("simulate demoo", &["demoo", "did you mean demo?"]),
         ("completions tcsh", &["tcsh", "bash"]),
         ("--size 80", &["--size", "WIDTHxHEIGHT"]),

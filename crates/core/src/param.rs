@@ -210,9 +210,15 @@ impl Param {
 
     fn refuse(&self, text: &str) -> Error {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" ({})", self.unit) };
+        let words: &[&str] = match self.kind {
+            Kind::Choice(words) | Kind::RealOr { words, .. } => words,
+            _ => &[],
+        };
+        let meant = nearest(text, words.iter().copied());
+        let hint = meant.map_or(String::new(), |near| format!("did you mean {near}? "));
         Error::usage(
             format!("{} = {text}: not a legal value", self.key),
-            format!("{} takes {}{unit}: {}", self.key, self.range(), self.help),
+            format!("{hint}{} takes {}{unit}: {}", self.key, self.range(), self.help),
         )
     }
 
