@@ -80,7 +80,7 @@ fn files_that_are_no_records() {
 #[test]
 fn columns_methods_and_settings_that_do_not_exist() {
     let case = |words: &str| format!("clean demo.csv {OUTPUTS} {words}");
-    let cases: [(&str, &[&str]); 16] = [
+    let cases: [(&str, &[&str]); 17] = [
         ("--channel vx", &["`vx`", "vx_mps, alt_m"]),
         ("--time when", &["`when`", "t_s"]),
         ("--truth alt_m", &["`alt_m`", "truth"]),
