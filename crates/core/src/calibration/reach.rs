@@ -6,7 +6,7 @@ use crate::math::order::median_in_place;
 /// The quantiles of the residuals that show how their tail falls off: 85 % and 97 %.
 const QUANTILES: [f64; 2] = [0.85, 0.97];
 
-/// So many samples of the record lie beyond the reach: where a single one lies is chance.
+/// The reach is exceeded by this many samples of the record: where a single one lies is chance.
 const BEYOND: f64 = 3.0;
 
 /// Exponents of the tail: from a little heavier than exponential (1) to that of a normal deviate between the two
@@ -16,7 +16,7 @@ const EXPONENT: [f64; 2] = [0.85, 1.498];
 /// Values are usual within this quantile of the distances from their median …
 const USUAL: f64 = 0.95;
 
-/// … and unusual beyond so many times that distance.
+/// … and unusual beyond this multiple of that distance.
 const UNUSUAL: f64 = 2.0;
 
 /// What a record is as a whole, whatever the state of a part of it.

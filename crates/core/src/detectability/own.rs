@@ -28,7 +28,7 @@ pub(super) struct Shown<'a> {
     pub(super) y: &'a [f64],
     /// The stretches between cuts.
     pub(super) segments: &'a [Range<usize>],
-    /// The value that stands for no value, where the record has one.
+    /// The fill value, where the record has one.
     pub(super) dropout: Option<f64>,
 }
 

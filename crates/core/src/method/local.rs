@@ -16,7 +16,7 @@ use crate::stop::{Stop, Stopped};
 /// the target, which one side agrees with, is removed.
 const OUTSIDE: f64 = 0.3;
 
-/// An objection of so many tolerances makes an outlier where the calibration decides: no method that starts anew on the
+/// An objection of this many tolerances makes an outlier where the calibration decides: no method that starts anew on the
 /// level of a run can take it for the target's.
 const GROSS: f64 = 10.0;
 
@@ -135,7 +135,8 @@ impl Sample {
     }
 
     fn is_gross(self, tolerance: f64) -> bool {
-        self.objection.decides && self.objection.outside >= GROSS * tolerance
+        // On a constant both are 0.
+        self.objection.decides && self.objection.outside > 0.0 && self.objection.outside >= GROSS * tolerance
     }
 
     fn is_doubtful(self, tolerance: f64, doubt: f64) -> bool {
@@ -269,6 +270,13 @@ mod tests {
         for other in [with(false, objections), with(true, objections.map(|o| o * 29.0 / 5000.0))] {
             assert_eq!((other.verdict, other.expected), (vec![Verdict::Normal; 6], y.to_vec()));
         }
+    }
+
+    #[test]
+    fn on_a_constant_nothing_is_gross() {
+        let objection = Objection { outside: 0.0, lower: 1.0, decides: true };
+        assert_eq!(Sample { distance: 0.0, objection }.verdict(Verdict::Normal, 0.0, 1.0, false), Verdict::Normal);
+        assert_ne!(Sample { distance: 0.0, objection }.gated(1.0, 1.0), Verdict::Outlier);
     }
 
     #[test]
