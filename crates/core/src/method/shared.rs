@@ -231,7 +231,7 @@ pub const ALPHA: Param = Param {
 
 /// Only a calibrated record has limits for what is doubtful.
 fn doubt_matters(settings: &Settings) -> bool {
-    settings.choice(FLOOR.key) == Choice::Word(RECORD)
+    matches!(settings.choice(FLOOR.key), Choice::Word(NOISE | RECORD))
 }
 
 /// A mean is not changed by fitting it again, and after the only pass there is nothing to fit.
@@ -311,6 +311,13 @@ mod tests {
         let mut settings = Settings::defaults(params);
         changes.iter().for_each(|(key, text)| settings.set_text(id, key, text).unwrap());
         (params.iter().find(|p| p.key == key).unwrap().matters)(&settings)
+    }
+
+    #[test]
+    fn doubt_matters_where_the_record_is_calibrated() {
+        for (floor, wanted) in [("noise", true), ("record", true), ("auto", false), ("2.5", false)] {
+            assert_eq!(matters("two-sided", "doubt", &[("floor", floor)]), wanted, "floor {floor}");
+        }
     }
 
     #[test]
