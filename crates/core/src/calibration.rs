@@ -54,10 +54,10 @@ pub(crate) use words::amount;
 /// The rules of a calibration. Saved results name them, so that they stay what they were.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Rules {
-    /// The first ones: normal noise reaches as far in a record of any length.
+    /// The rules of earlier versions: the length of the record does not matter.
     Record,
-    /// Where no end of the noise is seen it reaches farther in a longer record; an unusual value is doubtful also where the record is rough; and what
-    /// both sides object to by ten limits is wild whatever the method says.
+    /// Where the record shows no end of its noise, limits are higher in a longer record. An unusual value can be doubtful
+    /// in a rough part too. An objection of ten limits from both sides makes an outlier of any sample.
     #[default]
     Noise,
 }
@@ -67,7 +67,7 @@ pub enum Rules {
 pub struct Calibration {
     /// The rules that it was made by.
     pub rules: Rules,
-    /// What the record is as a whole; none by [`Rules::Record`].
+    /// What the record is as a whole; none by [`Rules::Record`], and where its noise has no tail to go by.
     pub whole: Option<Whole>,
     /// The smallest step that many neighbours share, in channel units; 0 where values are not on a grid.
     pub resolution: f64,
@@ -157,7 +157,7 @@ fn calibrate_whole(record: &Record<'_>, stop: &Stop) -> Result<Calibration, Stop
     let mut objections = outside(record, &masked, |_| true, stop)?;
     objections.iter_mut().zip(bridged).for_each(|(o, b)| *o = o.max(b));
     let Record { rules, resolution, .. } = *record;
-    let whole = (rules == Rules::Noise).then(|| Whole::of(record.y, reach));
+    let whole = reach.map(|reach| Whole::of(record.y, reach));
     Ok(Calibration { rules, whole, resolution, held: share_held(record.y), limits, tails, objections })
 }
 
@@ -187,8 +187,8 @@ fn coarse_mask(record: &Record<'_>, stop: &Stop) -> Result<Vec<bool>, Stopped> {
 struct Limits {
     limits: Vec<f64>,
     tails: f64,
-    /// How far the noise of the whole record reaches, in the window in which that is least.
-    reach: f64,
+    /// How far the noise of the whole record reaches, in the window in which that is least, where the rules ask.
+    reach: Option<f64>,
 }
 
 /// One round: limits under the mask, and the mask that they give.
@@ -205,7 +205,7 @@ fn round(
     let lower = (STEPS * record.resolution).max(if first { 0.0 } else { WHITE * white_noise(record, masked) });
     let mut least = vec![f64::INFINITY; n];
     let mut scores = vec![f64::INFINITY; n];
-    let (mut tails, mut least_reach) = (1.0_f64, f64::INFINITY);
+    let (mut tails, mut least_reach) = (1.0_f64, None::<f64>);
     for (index, residuals) in residuals.iter_mut().enumerate() {
         let r = residuals.update(record, masked, stop)?;
         // 3.4 medians-and-a-bit and 2 quantiles of 85 %: 2.9 deviations of normal noise either way.
@@ -219,7 +219,9 @@ fn round(
             tails = threshold::tails(r, masked, &local, (0.3 * base, record.resolution));
         }
         if record.rules == Rules::Noise && !first {
-            least_reach = least_reach.min(reach(r, masked));
+            // Never below what is usual: a few steps of the resolution are no tail.
+            let reach = reach(r, masked).map(|reach| reach.max(base));
+            least_reach = least_reach.into_iter().chain(reach).reduce(f64::min);
         }
         let limit: Vec<f64> = if first {
             let local = background(r, masked, wide, 0.6, stop)?;
@@ -238,8 +240,7 @@ fn round(
     let end = threshold(&scores, weight(tails));
     let times = end.times;
     // Where the record does not show an end of its noise, the tail says how far the noise reaches.
-    let extended = record.rules == Rules::Noise && !first && !end.shown;
-    let floor = if extended { least_reach * weight(tails) } else { 0.0 };
+    let floor = least_reach.filter(|_| !end.shown).map_or(0.0, |reach| reach * weight(tails));
     least.par_iter_mut().for_each(|l| *l = (*l * times).max(floor));
     if pass != Round::Last {
         let low = if first { times } else { 0.6 * times };

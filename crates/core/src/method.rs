@@ -92,7 +92,7 @@ pub fn voting() -> impl Iterator<Item = &'static dyn Method> {
 /// [`Stopped`] as soon as nobody waits for it any more.
 pub fn segments(series: &Series<'_>, settings: &Settings, stop: &Stop) -> Result<Vec<Range<usize>>, Stopped> {
     let max_gap = settings.whole_or_off(shared::MAX_GAP.key);
-    if noise::by_record(settings) {
+    if noise::by_calibration(settings) {
         stop.check()?;
         return Ok(stretches(&series.t, max_gap));
     }

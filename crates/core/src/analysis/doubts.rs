@@ -23,7 +23,7 @@ fn many_flagged(detection: &Detection, counts: &Counts) -> Option<String> {
     let settings = &detection.setup.settings;
     let has_floor = settings.params().iter().any(|p| p.key == FLOOR.key);
     let cause = match detection.calibration.as_deref() {
-        _ if has_floor && !noise::by_record(settings) => {
+        _ if has_floor && !noise::by_calibration(settings) => {
             "the scale assumes white noise on a smooth track; floor = noise measures it instead"
         }
         Some(found) if found.held >= HOLDS => {

@@ -178,7 +178,7 @@ impl Sight {
     }
 
     /// What the method said of the seen samples, with an entry for each of the `y` that were measured. A multiplier that
-    /// only gates is `k`; `by_record` is true where the calibration had a say.
+    /// only gates is `k`; `by_calibration` is true where the calibration had a say.
     ///
     /// # Errors
     /// [`Stopped`] as soon as nobody waits for the result any more.
@@ -186,7 +186,7 @@ impl Sight {
         &self,
         said: Judged,
         y: &[f64],
-        (k, by_record): (Option<f64>, bool),
+        (k, by_calibration): (Option<f64>, bool),
         stop: &Stop,
     ) -> Result<Judged, Stopped> {
         let mut said = match &self.kept {
@@ -196,7 +196,7 @@ impl Sight {
         let Some(circle) = &self.circle else { return Ok(said) };
         circle.back(&mut said.expected, y);
         circle.back(&mut said.own, y);
-        if by_record {
+        if by_calibration {
             // The distances on the measured values differ from those on the unwrapped ones in their last bits.
             said.scale.clear();
         } else if let Some(k) = k.filter(|_| said.scale.len() == y.len()) {

@@ -6,11 +6,12 @@ use crate::math::order::median_in_place;
 /// The quantiles of the residuals that show how their tail falls off: 85 % and 97 %.
 const QUANTILES: [f64; 2] = [0.85, 0.97];
 
-/// The reach is exceeded by this many samples of the record: where a single one lies is chance.
+/// This many samples of the record are expected beyond the reach. The position of a single one would be chance.
 const BEYOND: f64 = 3.0;
 
 /// Exponents of the tail: from a little heavier than exponential (1) to that of a normal deviate between the two
-/// quantiles. A tail that looks heavier still is noise of two states, which the local limits know.
+/// quantiles. A tail that looks heavier still is noise of two
+/// states, and the local limits follow those.
 const EXPONENT: [f64; 2] = [0.85, 1.498];
 
 /// Values are usual within this quantile of the distances from their median …
@@ -41,19 +42,20 @@ impl Whole {
     /// the record hardly takes elsewhere no more than the reach, however rough the record is around it.
     pub(super) fn doubtful_share(&self, value: f64, limit: f64, otherwise: f64) -> f64 {
         let unusual = (value - self.middle).abs() > UNUSUAL * self.spread;
-        if unusual && limit > 0.0 { otherwise.min(self.reach / limit) } else { otherwise }
+        if unusual && limit > 0.0 && limit.is_finite() { otherwise.min(self.reach / limit) } else { otherwise }
     }
 }
 
 /// The residual that about three of the unmasked samples would exceed if the tail falls off as it does between two
-/// quantiles of `r`, as exp(-x^c): the more samples, the farther noise reaches.
-pub(super) fn reach(r: &[f64], masked: &[bool]) -> f64 {
+/// quantiles of `r`, as exp(-x^c): the more samples, the farther noise reaches. None where the nearer quantile is 0, as in
+/// records that hardly move: such residuals have no tail to go by.
+pub(super) fn reach(r: &[f64], masked: &[bool]) -> Option<f64> {
     let [near, far] = QUANTILES.map(|q| quantile_of(r, masked, q));
     let [log_near, log_far] = QUANTILES.map(|q| -(1.0 - q).ln());
     let exponent = ((log_far / log_near).ln() / (far / near).ln()).clamp(EXPONENT[0], EXPONENT[1]);
     let samples = super::threshold::count(masked.iter().filter(|m| !**m).count());
     let farther = ((samples / BEYOND).ln() / log_near).max(1.0).powf(exponent.recip());
-    if exponent.is_nan() { 0.0 } else { near * farther }
+    (near > 0.0).then_some(near * farther)
 }
 
 #[cfg(test)]
@@ -69,7 +71,7 @@ mod tests {
     fn exponential_tails_reach_as_far_as_their_logarithm() {
         // exp(-x) = 3 / 20,000.
         let r = residuals(20_000, |share| -(1.0 - share).ln());
-        let found = reach(&r, &vec![false; r.len()]);
+        let found = reach(&r, &vec![false; r.len()]).unwrap();
         assert!((found / (20_000.0_f64 / 3.0).ln() - 1.0).abs() < 0.005, "{found}");
     }
 
@@ -79,11 +81,12 @@ mod tests {
         let mut masked = vec![false; 1000];
         // 0.85 (ln (1000 / 3) / ln (1 / 0.15))^(1 / 1.498).
         let wanted = 0.85 * ((1000.0_f64 / 3.0).ln() / -0.15_f64.ln()).powf(1.0 / 1.498);
-        assert!((reach(&r, &masked) / wanted - 1.0).abs() < 0.005);
+        assert!((reach(&r, &masked).unwrap() / wanted - 1.0).abs() < 0.005);
         r.extend([50.0; 100]);
         masked.extend([true; 100]);
-        assert!((reach(&r, &masked) / wanted - 1.0).abs() < 0.005);
-        assert!(reach(&[0.0; 100], &[false; 100]) == 0.0);
+        assert!((reach(&r, &masked).unwrap() / wanted - 1.0).abs() < 0.005);
+        let held: Vec<f64> = residuals(100, |share| if share < 0.9 { 0.0 } else { 1.0 });
+        assert_eq!(reach(&held, &[false; 100]), None);
     }
 
     #[test]
@@ -94,5 +97,7 @@ mod tests {
         assert_eq!(whole.doubtful_share(19.0, 60.0, 0.5), 0.5);
         assert_eq!(whole.doubtful_share(-21.0, 50.0, 0.5), 0.1);
         assert_eq!(whole.doubtful_share(-21.0, 3.0, 0.5), 0.5);
+        // Where nothing is known of the noise, nothing is doubtful.
+        assert_eq!(whole.doubtful_share(-21.0, f64::INFINITY, 0.5), 0.5);
     }
 }

@@ -16,8 +16,8 @@ use crate::stop::{Stop, Stopped};
 /// the target, which one side agrees with, is removed.
 const OUTSIDE: f64 = 0.3;
 
-/// An objection of this many tolerances makes an outlier where the calibration decides: no method that starts anew on the
-/// level of a run can take it for the target's.
+/// Where the calibration decides, an objection of this many tolerances makes an outlier, also if the method has started
+/// again on the level of the run.
 const GROSS: f64 = 10.0;
 
 /// What `judged` is with no tolerance below the multiplier times the floor of its sample. An objection that does not
@@ -51,8 +51,9 @@ pub(super) fn bounded_below(
     let changes = changes(&judged);
     let Judged { verdict, tolerance, expected, .. } = &mut judged;
     let pieces = verdict.par_chunks_mut(PIECE).zip(tolerance.par_chunks_mut(PIECE)).enumerate();
-    pieces.try_for_each(|(piece, (verdict, tolerance))| {
+    let judge = |(piece, (verdict, tolerance)): (usize, (&mut [Verdict], &mut [f64]))| {
         stop.check()?;
+        let mut followed = false;
         for (i, (said, tolerance)) in (piece * PIECE..).zip(verdict.iter_mut().zip(tolerance)) {
             if tolerance.is_nan() || expected[i].is_nan() {
                 continue;
@@ -61,30 +62,41 @@ pub(super) fn bounded_below(
             let sample = Sample { distance: (segment.y[i] - expected[i]).abs(), objection: segment.objections[i] };
             let change = changes.get(i).copied().unwrap_or(false);
             *said = sample.verdict(*said, *tolerance, doubt, change);
+            followed |= sample.is_followed(*tolerance);
         }
-        Ok(())
-    })?;
-    expect_between(&mut judged, segment);
+        Ok(followed)
+    };
+    if pieces.map(judge).try_reduce(|| false, |a, b| Ok(a | b))? {
+        object_to_followed(&mut judged, segment);
+    }
     Ok(judged)
 }
 
-/// What is expected of outliers that the method itself agrees with: it has followed them, so the line between the
-/// samples before and after them stands for it.
-fn expect_between(judged: &mut Judged, segment: &Segment<'_>) {
-    let Judged { verdict, tolerance, expected, .. } = judged;
-    let followed = |i: usize, expected: &[f64]| {
-        verdict[i] == Verdict::Outlier && !reaches((segment.y[i] - expected[i]).abs(), tolerance[i])
-    };
+/// Corrects what is said of gross runs that the method has followed: both directions object, and the line between the
+/// samples before and after the run is expected.
+fn object_to_followed(judged: &mut Judged, segment: &Segment<'_>) {
+    let Judged { tolerance, expected, directions, .. } = judged;
+    let followed: Vec<bool> = (0..tolerance.len())
+        .map(|i| {
+            let distance = (segment.y[i] - expected[i]).abs();
+            Sample { distance, objection: segment.objections[i] }.is_followed(tolerance[i])
+        })
+        .collect();
     let mut first = 0;
-    while first < verdict.len() {
-        let end = first + (first..verdict.len()).take_while(|&i| followed(i, expected)).count();
-        if end > first {
+    for run in followed.chunk_by(|a, b| a == b) {
+        let end = first + run.len();
+        if run[0] {
             let mut line = LineSums::default();
-            let around = first.checked_sub(1).into_iter().chain(Some(end).filter(|&end| end < verdict.len()));
+            let around = first.checked_sub(1).into_iter().chain(Some(end).filter(|&end| end < followed.len()));
             around.for_each(|i| line.add([segment.t[i], segment.y[i]]));
-            (first..end).for_each(|i| expected[i] = line.at(segment.t[i]));
+            for i in first..end {
+                expected[i] = line.at(segment.t[i]);
+                if let Some(Directions { forward, backward }) = directions.get_mut(i) {
+                    forward.iter_mut().chain(backward).for_each(|said| *said = Direction::Abnormal);
+                }
+            }
         }
-        first = end + 1;
+        first = end;
     }
 }
 
@@ -137,6 +149,11 @@ impl Sample {
     fn is_gross(self, tolerance: f64) -> bool {
         // On a constant both are 0.
         self.objection.decides && self.objection.outside > 0.0 && self.objection.outside >= GROSS * tolerance
+    }
+
+    /// True for a gross sample that the method agrees with, because it has followed the run that the sample is in.
+    fn is_followed(self, tolerance: f64) -> bool {
+        self.is_gross(tolerance) && !reaches(self.distance, tolerance)
     }
 
     fn is_doubtful(self, tolerance: f64, doubt: f64) -> bool {
@@ -259,11 +276,14 @@ mod tests {
                 verdict: vec![Verdict::Normal; 6],
                 expected: y.to_vec(),
                 tolerance: vec![1.0; 6],
+                directions: vec![Directions { forward: Some(Direction::Normal), backward: None }; 6],
                 ..Judged::default()
             };
             bounded_below(said, &segment, &settings, &Stop::never()).unwrap()
         };
         let found = with(true, objections);
+        let objects = |d: &Directions| (d.forward, d.backward) == (Some(Direction::Abnormal), None);
+        assert_eq!(found.directions.iter().map(objects).collect::<Vec<_>>(), [false, false, true, true, false, false]);
         let outliers: Vec<usize> = (0..6).filter(|&i| found.verdict[i] == Verdict::Outlier).collect();
         assert_eq!((outliers, &found.expected[..]), (vec![2, 3], &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0][..]));
         // By the first rules, and with less than ten tolerances of 3, the method has the last word.

@@ -65,7 +65,7 @@ pub fn scales(
 
 /// True when these settings take the floor from the calibration of the record.
 #[must_use]
-pub fn by_record(settings: &Settings) -> bool {
+pub fn by_calibration(settings: &Settings) -> bool {
     rules(settings).is_some()
 }
 
