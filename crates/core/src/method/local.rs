@@ -89,8 +89,8 @@ fn object_to_followed(judged: &mut Judged, segment: &Segment<'_>) {
             let mut line = LineSums::default();
             let around = first.checked_sub(1).into_iter().chain(Some(end).filter(|&end| end < followed.len()));
             around.for_each(|i| line.add([segment.t[i], segment.y[i]]));
-            for i in first..end {
-                expected[i] = line.at(segment.t[i]);
+            for (i, expected) in (first..end).zip(&mut expected[first..end]) {
+                *expected = line.at(segment.t[i]);
                 if let Some(Directions { forward, backward }) = directions.get_mut(i) {
                     forward.iter_mut().chain(backward).for_each(|said| *said = Direction::Abnormal);
                 }
