@@ -11,7 +11,7 @@ use super::table::{columns, row};
 use super::{Ending, one_channel, print, print_json, set_threads};
 use crate::cli::{AUTO, AdviseArgs, Shared};
 use crate::error::{Error, Result};
-use crate::session::detectability::{Advice, Detected, Kind, Measured, OnChannel, SEED, Study, two_digits};
+use crate::session::detectability::{Advice, Budget, Detected, Kind, Measured, OnChannel, SEED, Study, two_digits};
 use crate::session::{Measurement, Preset, Session, Setup};
 use crate::stop::Stop;
 use crate::track::{Samples, Track, printable};
@@ -138,9 +138,8 @@ fn tuned(args: &AdviseArgs, on_channel: &OnChannel<'_>, setups: &[Setup], out: &
     let channel = on_channel.channel;
     let setup = setups.first().cloned().unwrap_or_else(Setup::standard);
     let end = Instant::now() + Duration::from_secs_f64(args.seconds);
-    let is_over = || Instant::now() >= end;
-    let allowed = (args.flags, &is_over as &dyn Fn() -> bool);
-    let tuned = match on_channel.tune(&setup, allowed, &Stop::never())? {
+    let budget = Budget { flags: args.flags, is_over: &|| Instant::now() >= end };
+    let tuned = match on_channel.tune(&setup, &budget, &Stop::never())? {
         Ok(tuned) => tuned,
         Err(why) => return Err(Error::input(&args.file, format!("{}: {why}", channel.name), why.way_out())),
     };

@@ -190,10 +190,8 @@ impl Job {
     /// asked for.
     fn answer(&self, study: &Study, setups: Option<&[Setup]>, stop: &Stop) -> Result<Option<Finding>> {
         if let Subject::Tuning(setup) = &self.subject {
-            let flags = study.measure(std::slice::from_ref(setup.as_ref()), stop)?;
-            let flags = flags.first().map_or(0, |measured| measured.untouched.flagged);
             let end = Instant::now() + TUNING;
-            let budget = Budget { flags, is_over: &|| Instant::now() >= end };
+            let budget = Budget { flags: None, is_over: &|| Instant::now() >= end };
             return Ok(study.tune(setup, &budget, stop)?.map(|tuned| Finding::Tuned(Box::new(tuned))));
         }
         Ok(setups.map(|setups| study.compare(setups, stop)).transpose()?.map(|advice| self.finding(advice)))

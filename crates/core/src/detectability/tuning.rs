@@ -15,8 +15,8 @@ const GAIN: f64 = 0.005;
 
 /// What a search is allowed.
 pub struct Budget<'a> {
-    /// At most this many outliers on the record as it is.
-    pub flags: usize,
+    /// At most this many outliers on the record as it is; none: as many as the settings that were given flag there.
+    pub flags: Option<usize>,
     /// True as soon as no further settings are to be tried.
     pub is_over: &'a dyn Fn() -> bool,
 }
@@ -44,7 +44,8 @@ impl Study {
     /// [`Error::Stopped`](crate::Error::Stopped), and what [`Study::measure`] gives.
     pub fn tune(&self, setup: &Setup, budget: &Budget<'_>, stop: &Stop) -> Result<Option<Tuned>> {
         let Some(before) = self.measure(std::slice::from_ref(setup), stop)?.pop() else { return Ok(None) };
-        let mut search = Search { best: before.clone(), tried: 1, cut_short: false };
+        let most = budget.flags.unwrap_or(before.untouched.flagged);
+        let mut search = Search { best: before.clone(), most, tried: 1, cut_short: false };
         loop {
             let reached = search.best.recall;
             for param in setup.method.about().params {
@@ -52,7 +53,7 @@ impl Study {
                     search.cut_short = true;
                     break;
                 }
-                search.along(self, param, budget, stop)?;
+                search.along(self, param, stop)?;
             }
             if search.cut_short || search.best.recall <= reached {
                 break;
@@ -64,13 +65,15 @@ impl Study {
 
 struct Search {
     best: Measured,
+    /// At most this many outliers on the record as it is.
+    most: usize,
     tried: usize,
     cut_short: bool,
 }
 
 impl Search {
     /// Tries other values of `param`, and keeps the best where it is worth it.
-    fn along(&mut self, study: &Study, param: &'static Param, budget: &Budget<'_>, stop: &Stop) -> Result<()> {
+    fn along(&mut self, study: &Study, param: &'static Param, stop: &Stop) -> Result<()> {
         let now = &self.best.setup;
         if param.key == MAX_GAP.key || !(param.matters)(&now.settings) {
             return Ok(());
@@ -86,7 +89,7 @@ impl Search {
         }
         let measured = study.measure(&others, stop)?;
         self.tried += measured.len();
-        let allowed = |m: &Measured| m.untouched.flagged <= budget.flags;
+        let allowed = |m: &Measured| m.untouched.flagged <= self.most;
         let best = measured.into_iter().filter(allowed).max_by(|a, b| a.recall.total_cmp(&b.recall));
         if let Some(best) = best.filter(|best| best.recall >= self.best.recall + GAIN) {
             self.best = best;

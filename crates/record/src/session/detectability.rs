@@ -51,23 +51,19 @@ impl OnChannel<'_> {
     }
 
     /// Settings with which the method of `setup` finds more, or why the channel cannot be asked: as [`Study::tune`].
-    /// `allowed` says how many outliers on the record as it is (none: as many as with `setup`), and when no further
-    /// settings are to be tried.
     ///
     /// # Errors
     /// As [`OnChannel::advise`].
     pub fn tune(
         &self,
         setup: &Setup,
-        (flags, is_over): (Option<usize>, &dyn Fn() -> bool),
+        budget: &Budget<'_>,
         stop: &Stop,
     ) -> Result<std::result::Result<Tuned, Unsuitable>> {
         let mut study = self.begin(vec![setup.clone()], stop)?;
         while study.advance(stop)? {}
-        let now = study.advice().methods.first().map_or(0, |measured| measured.untouched.flagged);
-        let budget = Budget { flags: flags.unwrap_or(now), is_over };
         let none = Unsuitable::TooShort { samples: self.samples.series(self.channel, &self.track.time).len() };
-        Ok(study.tune(setup, &budget, stop)?.ok_or_else(|| study.unsuitable().unwrap_or(none)))
+        Ok(study.tune(setup, budget, stop)?.ok_or_else(|| study.unsuitable().unwrap_or(none)))
     }
 
     /// Does `work` on the samples, with the channels beside them that `setups` need.
