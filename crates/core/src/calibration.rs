@@ -174,7 +174,7 @@ fn coarse_mask(record: &Record<'_>, stop: &Stop) -> Result<Vec<bool>, Stopped> {
     let nothing = vec![false; record.y.len()];
     let mut near = Residuals::new(3);
     let near = near.update(record, &nothing, stop)?;
-    let local = background(near, &nothing, background::Span { half: 60, middle: 6 }, 0.5, stop)?;
+    let [local] = background(near, &nothing, background::Span { half: 60, middle: 6 }, [0.5], stop)?;
     let floor = (4.0 * quantile_of(near, &nothing, 0.5)).max(STEPS * record.resolution);
     let limits: Vec<f64> = local.iter().map(|scale| (5.5 * scale).max(floor)).collect();
     let mut masked = nothing;
@@ -214,20 +214,20 @@ fn round(
         if base <= 0.0 {
             base = r.iter().copied().filter(|x| *x > 0.0).fold(f64::INFINITY, f64::min);
         }
-        if index == 0 && !first {
-            let local = background(r, masked, wide, 0.9, stop)?;
-            tails = threshold::tails(r, masked, &local, (0.3 * base, record.resolution));
-        }
         if record.rules == Rules::Noise && !first {
             // Never below what is usual: a few steps of the resolution are no tail.
             let reach = reach(r, masked).map(|reach| reach.max(base));
             least_reach = least_reach.into_iter().chain(reach).reduce(f64::min);
         }
         let limit: Vec<f64> = if first {
-            let local = background(r, masked, wide, 0.6, stop)?;
+            let [local] = background(r, masked, wide, [0.6], stop)?;
             local.iter().map(|x| base.max(1.9 * 2.4 * x)).collect()
         } else {
-            let (far, near) = (background(r, masked, wide, 0.95, stop)?, background(r, masked, narrow, 0.95, stop)?);
+            let [usual, far] = background(r, masked, wide, [0.9, 0.95], stop)?;
+            let [near] = background(r, masked, narrow, [0.95], stop)?;
+            if index == 0 {
+                tails = threshold::tails(r, masked, &usual, (0.3 * base, record.resolution));
+            }
             far.iter().zip(&near).map(|(far, near)| base.max(1.3 * far).max(1.9 * near)).collect()
         };
         scores.iter_mut().zip(r).zip(&limit).for_each(|((s, r), l)| *s = s.min(r / l));
@@ -287,14 +287,19 @@ fn quantile(values: &mut [f64], q: f64) -> f64 {
     if values.is_empty() {
         return 0.0;
     }
-    #[expect(
-        clippy::cast_precision_loss,
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "counts of samples are far below 2^53, and 0 <= q <= 1"
-    )]
-    let at = (q * (values.len() - 1) as f64) as usize;
+    let at = rank(values.len(), q);
     *values.select_nth_unstable_by(at, f64::total_cmp).1
+}
+
+/// The place of quantile `q` among `n` (at least 1) values in ascending order, the one at or below.
+#[expect(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "counts of samples are far below 2^53, and 0 <= q <= 1"
+)]
+fn rank(n: usize, q: f64) -> usize {
+    (q * (n - 1) as f64) as usize
 }
 
 #[cfg(test)]

@@ -30,13 +30,15 @@ pub(super) fn bridge(
     stop: &Stop,
 ) -> Result<Vec<f64>, Stopped> {
     let mut distance = vec![0.0; record.y.len()];
+    let mut left = Vec::with_capacity(FLANK);
     for stretch in &record.stretches {
         let mut i = stretch.start + FEWEST;
         while i + FEWEST < stretch.end {
             if i.is_multiple_of(Stop::STRIDE) {
                 stop.check()?;
             }
-            let left = flank((stretch.start..i).rev(), masked);
+            left.clear();
+            left.extend(flank((stretch.start..i).rev(), masked));
             if left.len() < FEWEST || agrees(record, &left, i, limits[i]) {
                 i += 1;
                 continue;
@@ -55,8 +57,8 @@ pub(super) fn bridge(
 }
 
 /// The nearest unmasked samples, the nearest first.
-fn flank(near: impl Iterator<Item = usize>, masked: &[bool]) -> Vec<usize> {
-    near.take(3 * FLANK).filter(|j| !masked[*j]).take(FLANK).collect()
+fn flank(near: impl Iterator<Item = usize>, masked: &[bool]) -> impl Iterator<Item = usize> {
+    near.take(3 * FLANK).filter(|j| !masked[*j]).take(FLANK)
 }
 
 /// Whether a flank lets expect sample `i`.
@@ -79,7 +81,7 @@ fn patch(
         if masked[behind] {
             return None;
         }
-        let right = flank(behind..end, masked);
+        let right: Vec<usize> = flank(behind..end, masked).collect();
         if right.len() < FEWEST || agrees(record, &right, behind - 1, limits[behind - 1]) {
             return None;
         }

@@ -154,10 +154,13 @@ pub(super) fn outside(
         let first = stretch.start;
         all[stretch.clone()].par_chunks_mut(PIECE).enumerate().try_for_each(|(piece, out)| {
             stop.check()?;
-            for (k, out) in out.iter_mut().enumerate() {
-                let i = first + piece * PIECE + k;
+            let from = first + piece * PIECE;
+            let mut before = own.partition_point(|j| *j < from);
+            for (i, out) in (from..).zip(out) {
+                before += usize::from(own.get(before).is_some_and(|j| *j < i));
                 if asked(i) {
-                    *out = outside_of(record, &own, i);
+                    let after = before + usize::from(own.get(before) == Some(&i));
+                    *out = outside_of(record, &own[..before], &own[after..], i);
                 }
             }
             Ok(())
@@ -166,10 +169,8 @@ pub(super) fn outside(
     Ok(all)
 }
 
-fn outside_of(record: &Record<'_>, own: &[usize], i: usize) -> f64 {
-    let before = own.partition_point(|j| *j < i);
-    let after = own.partition_point(|j| *j <= i);
-    let (left, right) = (&own[..before], &own[after..]);
+/// How far sample `i` lies outside of what the samples before and after it let expect.
+fn outside_of(record: &Record<'_>, left: &[usize], right: &[usize], i: usize) -> f64 {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let mut expect = |value: f64| (low, high) = (low.min(value), high.max(value));
     if record.holds {

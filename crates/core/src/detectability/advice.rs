@@ -16,6 +16,9 @@ const FALSE: f64 = 100.0;
 /// A method with a larger share of false flags is not recommended while there is another.
 const MOST_FALSE: f64 = 0.01;
 
+/// The same for samples that it leaves open: its suspects and what it cannot judge. Somebody has to look at each.
+const MOST_OPEN: f64 = 0.05;
+
 /// Methods whose merits differ by less are equally good.
 const EQUAL: f64 = 0.01;
 
@@ -249,7 +252,9 @@ fn recall(curves: &[Curve], kinds: &[OfKind]) -> f64 {
 fn ranked(methods: &[Measured], samples: usize) -> Vec<usize> {
     let falsely = |m: &Measured| share(m.untouched.alone, samples);
     let mut order: Vec<usize> = (0..methods.len()).collect();
-    let worse = |m: &Measured| falsely(m) > MOST_FALSE;
+    let open = |m: &Measured| share(m.untouched.suspects + m.untouched.unchecked, samples);
+    // What is false is in the results; what is left open costs somebody's time.
+    let worse = |m: &Measured| [falsely(m) > MOST_FALSE, open(m) > MOST_OPEN];
     order.sort_by(|&a, &b| {
         let (a, b) = (&methods[a], &methods[b]);
         worse(a).cmp(&worse(b)).then(b.merit.total_cmp(&a.merit))
@@ -278,6 +283,28 @@ mod tests {
         assert_eq!((majority.agreed, lists.map(|list| majority.missed(list))), (1, [0, 0, 0, 1]));
         let one = Majority::of(&[&[3]], &[0.4], &[false; 10]);
         assert_eq!((one.alone(&[3]), one.missed(&[3])), (0, 0), "one method alone has nobody to disagree with");
+    }
+
+    /// A method on 1000 samples, with this merit, so many suspects and so many false flags.
+    fn row(merit: f64, suspects: usize, alone: usize) -> Measured {
+        Measured {
+            setup: Setup::standard(),
+            kinds: Vec::new(),
+            untouched: Untouched { flagged: alone, alone, suspects, ..Untouched::default() },
+            repair_error: None,
+            removed: 0,
+            recall: merit,
+            merit,
+            milliseconds: 1.0,
+        }
+    }
+
+    #[test]
+    fn a_method_that_leaves_many_samples_open_comes_after_those_that_do_not() {
+        let rows = [row(0.9, 60, 0), row(0.7, 50, 0), row(0.8, 10, 20), row(0.5, 0, 0)];
+        assert_eq!(ranked(&rows, 1000), [1, 3, 0, 2]);
+        // Where all do, the merit decides.
+        assert_eq!(ranked(&[row(0.5, 80, 0), row(0.9, 60, 0)], 1000), [1, 0]);
     }
 
     #[test]

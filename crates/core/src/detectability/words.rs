@@ -74,14 +74,19 @@ impl Measured {
         Detected::in_words(&self.detected(), unit)
     }
 
-    /// What it flags on the record as it is: "flags 3 samples, 1 of them alone among the methods".
+    /// What it flags on the record as it is, and what it leaves open: "flags 3 samples on the record as it is, 1 of which
+    /// most methods do not, and leaves 12 suspect".
     #[must_use]
     pub fn flags(&self) -> String {
         let samples = |n: usize| if n == 1 { "1 sample".to_owned() } else { format!("{n} samples") };
-        match (self.untouched.flagged, self.untouched.alone) {
+        let flagged = match (self.untouched.flagged, self.untouched.alone) {
             (0, _) => "flags nothing on the record as it is".to_owned(),
             (n, 0) => format!("flags {} on the record as it is", samples(n)),
             (n, alone) => format!("flags {} on the record as it is, {alone} of which most methods do not", samples(n)),
+        };
+        match self.untouched.suspects {
+            0 => flagged,
+            n => format!("{flagged}, and leaves {n} suspect"),
         }
     }
 }
