@@ -71,8 +71,8 @@ fn from(curve: &Curve, unit: &str) -> String {
     }
 }
 
-/// What is known of a method, for its row in the list of methods: the share found, the flags on the record, and the
-/// time; with `*` at the one that is recommended.
+/// What is known of a method, for its row in the list of methods: the share found, the flags and suspects on the
+/// record, and the time; with `*` at the one that is recommended.
 pub(super) fn cells(model: &Model, method: &str) -> Option<String> {
     let studied = model.state().studied.as_deref()?;
     let advice = &studied.advice;
@@ -80,11 +80,12 @@ pub(super) fn cells(model: &Model, method: &str) -> Option<String> {
     let found = &advice.methods[index];
     let mark = if advice.recommended == Some(index) { '*' } else { ' ' };
     let share = 100.0 * found.recall;
-    Some(format!("{share:>4.0} %{mark}{:>7}{:>7.0}", found.untouched.flagged, found.milliseconds))
+    let said = &found.untouched;
+    Some(format!("{share:>4.0} %{mark}{:>7}{:>9}{:>6.0}", said.flagged, said.suspects, found.milliseconds))
 }
 
 /// The heading of these cells: as wide as they are.
-pub(super) const CELLS: &str = " found   flags     ms";
+pub(super) const CELLS: &str = " found   flags suspects    ms";
 
 /// What the list of methods says of them: how far they have been compared, and which is recommended.
 pub(super) fn about_list(model: &Model) -> Option<String> {
@@ -96,7 +97,7 @@ pub(super) fn about_list(model: &Model) -> Option<String> {
     match (running.map(|s| s.rounds), studied) {
         (Some([done, all]), _) if all > 0 => Some(format!("comparing on this record: {done} of {all} copies")),
         (Some(_), _) => Some("comparing on this record …".to_owned()),
-        (None, Some(studied)) => best(&studied.advice).map(|id| format!("finds most on this record: {id}")),
+        (None, Some(studied)) => best(&studied.advice).map(|id| format!("best on this record: {id}")),
         (None, None) => None,
     }
 }

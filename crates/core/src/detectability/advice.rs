@@ -285,7 +285,7 @@ mod tests {
         assert_eq!((one.alone(&[3]), one.missed(&[3])), (0, 0), "one method alone has nobody to disagree with");
     }
 
-    /// A method on 1000 samples, with this merit, so many suspects and so many false flags.
+    /// A method on 1000 samples with this merit, these numbers of suspects and of false flags.
     fn row(merit: f64, suspects: usize, alone: usize) -> Measured {
         Measured {
             setup: Setup::standard(),
