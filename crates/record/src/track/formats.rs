@@ -28,6 +28,7 @@ mod lvm;
 mod ndbc;
 mod nmea;
 mod oem;
+mod orekit;
 mod pbo;
 mod rdb;
 mod rtklib;
@@ -125,7 +126,7 @@ pub(crate) struct Label {
 }
 
 /// All of them, in the order in which they are tried.
-pub static FORMATS: [Format; 33] = [
+pub static FORMATS: [Format; 34] = [
     cnv::FORMAT,
     oem::FORMAT,
     stk::FORMAT,
@@ -156,6 +157,7 @@ pub static FORMATS: [Format; 33] = [
     nmea::FORMAT,
     crd::FORMAT,
     tdm::FORMAT,
+    orekit::FORMAT,
     sp3::FORMAT,
     ardupilot::FORMAT,
     tlog::FORMAT,

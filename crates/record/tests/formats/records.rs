@@ -1,9 +1,9 @@
-//! Tracking data of satellites: CRD, TDM.
+//! Tracking data of satellites: CRD, TDM, Orekit.
 
 use super::case::{Case, ROWS, case, iso, moment, other};
 
 pub(crate) fn cases() -> Vec<Case> {
-    [crd(), tdm()].into_iter().flatten().collect()
+    [crd(), tdm(), orekit()].into_iter().flatten().collect()
 }
 
 fn crd() -> Vec<Case> {
@@ -57,6 +57,33 @@ fn crd() -> Vec<Case> {
             missing: ("bin_rms", 2 * ROWS),
             windows: true,
             ..case("two targets over midnight", "CRD", awkward)
+        },
+    ]
+}
+
+fn orekit() -> Vec<Case> {
+    let time = |i: usize| iso(i).replace(' ', "T");
+    let plain = move |v: &dyn Fn(usize) -> String| {
+        let rows = (0..ROWS)
+            .fold(String::new(), |text, i| text + &format!("{}.3851   RANGE       Uralla  {}\n", time(i), v(i)));
+        format!("# ranges of one station\n\n{rows}")
+    };
+    // Two stations, angles of one between the ranges of the other, a value beyond the ends of the kinds in a comment.
+    let awkward = move |v: &dyn Fn(usize) -> String| {
+        let rows = (0..ROWS).fold(String::new(), |text, i| {
+            text + &format!("{} AZ_EL Kumsan {} {:.4}\n", time(i), v(i), 10.0 + other(i))
+                + &format!("{}.5\tRANGE\tUralla\t{:.4}\n# {}\n", time(i), other(i), time(i))
+        });
+        format!("#\n# RANGE in km\n{rows}")
+    };
+    vec![
+        Case { channel: "range", unit: "km", ..case("one station", "Orekit measurements", plain) },
+        Case {
+            channel: "azimuth@Kumsan",
+            unit: "deg",
+            missing: ("range", ROWS),
+            windows: true,
+            ..case("two stations, two kinds", "Orekit measurements", awkward)
         },
     ]
 }
