@@ -49,6 +49,18 @@ fn rdb() -> String {
     (0..40).fold(head.to_owned(), |text, hour| text + &row(hour))
 }
 
+/// The week of 2024-03-03 is 2304; the last samples of a week and the first of the next.
+#[test]
+fn a_unit_in_the_name_of_the_seconds_of_the_week_hides_them_from_nobody() {
+    for name in ["tow_s", "tow", "sow_s", "tow (s)", "tow_ms"] {
+        let unit = if name == "tow_ms" { 1000 } else { 1 };
+        let row = |i: u32| format!("{},{},{}.5\n", 2304 + i / 30, (604_770 + i) % 604_800 * unit, i * i % 7);
+        let track = loaded(&format!("week,{name},range_m\n{}", (0..60).map(row).collect::<String>()));
+        assert!(first(&track).starts_with("2024-03-09 23:59:30"), "{name}: {}", first(&track));
+        assert!(steps(&track).iter().all(|step| (step - 1.0).abs() < 1e-9), "{name}");
+    }
+}
+
 #[test]
 fn a_column_of_zones_moves_the_clock_of_each_row() {
     let track = loaded(&rdb());

@@ -72,11 +72,14 @@ fn named(name: &str) -> Option<Named> {
     let of = |text: &str| NAMES.iter().find(|(names, _)| names.contains(&text)).map(|(_, named)| *named);
     let last = names::words(bare).last().map(|w| w.to_lowercase()).unwrap_or_default();
     let unit = if lower.contains("ms") || lower.contains("milli") || plain == "itow" { 1_000_000 } else { SECOND };
-    let found =
-        of(&plain).or_else(|| of(&last).filter(|n| !matches!(n, Named::Second) || names::words(bare).len() > 1));
-    let week = |n: Named| if let Named::SecondOfWeek(_) = n { Named::SecondOfWeek(unit) } else { n };
+    // `tow_s` ends in its unit, which is the name of a part, too.
     let without_unit = plain.strip_suffix("ms").or_else(|| plain.strip_suffix('s'));
-    found.or_else(|| without_unit.and_then(of).filter(|n| matches!(n, Named::SecondOfWeek(_)))).map(week)
+    let with_unit = without_unit.and_then(of).filter(|n| matches!(n, Named::SecondOfWeek(_) | Named::SecondOfDay));
+    let found = of(&plain)
+        .or(with_unit)
+        .or_else(|| of(&last).filter(|n| !matches!(n, Named::Second) || names::words(bare).len() > 1));
+    let week = |n: Named| if let Named::SecondOfWeek(_) = n { Named::SecondOfWeek(unit) } else { n };
+    found.map(week)
 }
 
 /// True for the name of a part of a time.
