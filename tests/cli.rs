@@ -203,6 +203,18 @@ fn inspect_states_the_facts_of_the_record() {
     }
 }
 
+/// What `inspect` says of the noise is what a method finds: the turn is taken without its jump at north.
+#[test]
+fn inspect_calibrates_a_circular_channel_unwrapped() {
+    let row = |i: u32| format!("{},{:.1}\n", i, (350.0 + 0.7 * f64::from(i) + f64::from(i * i % 3) / 10.0) % 360.0);
+    let text = format!("t_s,azimuth_deg\n{}", (0..60).map(row).collect::<String>());
+    let folder = Folder::with(&[("turn.csv", text.as_bytes())]);
+    let page = folder.done("inspect turn.csv");
+    let words = page.lines().find(|line| line.contains("errors up to")).unwrap_or_else(|| panic!("{page}"));
+    let error = words.split("errors up to ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
+    assert!(error.parse::<f64>().unwrap() < 5.0, "{words}");
+}
+
 #[test]
 fn simulate_gives_the_record_of_its_seed() {
     let folder = Folder::with(&[]);

@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use crate::calibration::{Rules, calibrate};
+use crate::analysis::Input;
 use crate::method::noise;
 use crate::method::shared::MAX_GAP;
 use crate::param::Value;
-use crate::session::{Remedy, Suggestion, suggestions};
+use crate::session::{Preparation, Remedy, Suggestion, suggestions};
 use crate::stop::{Stop, Stopped};
 use crate::track::{ColumnKind, Encoding, FaultKind, Faults, Series, Track, printable, without_signed_zero};
 
@@ -275,12 +275,13 @@ fn magnitude(x: f64) -> i32 {
 /// Samples that are calibrated at most: facts of a large file shall not take minutes.
 const CALIBRATED: usize = 100_000;
 
-/// What a calibration of the channel says, in words; of a long one, of its first samples.
-fn calibrated(series: &Series<'_>, unit: &str) -> Vec<String> {
+/// What a calibration of the channel says, in words, of what a method sees of it under `preparation`; of a long one, of its
+/// first samples.
+fn calibrated(series: &Series<'_>, preparation: &Preparation, unit: &str) -> Vec<String> {
     let n = series.len().min(CALIBRATED);
     let head = Series::new(&series.t[..n], &series.y[..n]);
-    let mut words =
-        calibrate(&head, Rules::default(), &Stop::never()).map(|found| found.words(unit)).unwrap_or_default();
+    let found = Input::from(&head).calibrated(preparation, &Stop::never());
+    let mut words = found.map(|found| found.words(unit)).unwrap_or_default();
     if n < series.len() {
         words.push(format!("by the first {n} samples"));
     }
@@ -298,6 +299,7 @@ fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts
     let stop = Stop::never();
     let of_longest = |all: Result<Vec<f64>, Stopped>| all.ok()?.get(longest?).copied().filter(|s| s.is_finite());
     let low = series.y.iter().copied().reduce(f64::min);
+    let suggested = suggestions(channel);
     ChannelFacts {
         name: channel.name.clone(),
         unit: channel.unit.clone(),
@@ -309,8 +311,8 @@ fn channel_facts(track: &Track, channel: &crate::track::Channel) -> ChannelFacts
         range: low.zip(series.y.iter().copied().reduce(f64::max)),
         noise_difference: of_longest(noise::by_difference(&series, &segments, &stop)),
         noise_spline: of_longest(noise::by_spline(&series, &segments, &stop)),
-        calibration: calibrated(&series, &channel.unit),
-        suggests: suggestions(channel).into_iter().map(in_words).collect(),
+        calibration: calibrated(&series, &Preparation::certain(suggested.clone()), &channel.unit),
+        suggests: suggested.into_iter().map(in_words).collect(),
     }
 }
 

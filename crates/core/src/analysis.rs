@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::calibration::{Calibration, calibrate};
+use crate::calibration::{Calibration, Rules, calibrate};
 use crate::check;
 use crate::error::{Error, Result};
 use crate::math::pieces::{self, PIECE};
@@ -11,6 +11,7 @@ use crate::memory::Share;
 use crate::method::noise::{self, Scales};
 use crate::method::shared::DOUBT;
 use crate::method::{self, Damaged, Gated, Judged, Rate, Record, Segment, Together, Verdict, judge_segments, segments};
+use crate::preparation::Preparation;
 use crate::repair::{self, Damage, Gap};
 use crate::review::{Decision, Decisions};
 use crate::series::Series;
@@ -90,6 +91,17 @@ impl<'a> Input<'a> {
     #[must_use]
     pub fn new(series: &'a Series<'a>, rate: Option<&'a Series<'a>>) -> Self {
         Self { series, rate, companions: &[], decisions: None }
+    }
+
+    /// The calibration of what a method sees of the channel under `preparation`: without what the checks object to, and
+    /// unwrapped where the channel is circular.
+    ///
+    /// # Errors
+    /// [`Stopped`] as soon as nobody waits for the result any more.
+    pub fn calibrated(&self, preparation: &Preparation, stop: &Stop) -> std::result::Result<Calibration, Stopped> {
+        let taught = taught(preparation, self.decisions);
+        let sight = Sight::of(self.series, self.companions, (preparation, &taught), stop)?;
+        calibrate(&sight.series(self.series), Rules::default(), stop)
     }
 
     /// What of the channel the method sees.
