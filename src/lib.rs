@@ -11,6 +11,7 @@ pub mod experiment;
 pub mod job;
 pub mod manual;
 pub mod plot;
+pub mod program;
 pub mod report;
 pub mod stream;
 pub mod tui;

@@ -1,38 +1,43 @@
-//! Dispatch and exit status.
+//! The program: dispatch and exit status.
 
+use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
-use std::process::ExitCode;
 
+use crate::batch::{self, Ending};
+use crate::cli::{Cli, Color, ConfigArgs, Glyphs as GlyphChoice, Task, no_such_command};
+use crate::error::{Error, Result};
+use crate::manual;
+use crate::memory;
+use crate::report::Summary;
+use crate::session::{Analysed, Session, open_all};
+use crate::stop::Stop;
+use crate::track::{DASH, LoadOptions, Source, Wanted, load, printable_lines, take_unfinished_away};
+use crate::tui::config::{self, Config};
+use crate::tui::files::is_session;
+use crate::tui::journal::folder;
+use crate::tui::plot::Glyphs;
+use crate::tui::theme::{ColorDepth, Theme};
+use crate::tui::{self, Ended, Look, Misread, Opening, still};
 use clap::Parser;
-use wildpoint::batch::{self, Ending};
-use wildpoint::cli::{Cli, Color, ConfigArgs, Glyphs as GlyphChoice, Task, no_such_command};
-use wildpoint::error::{Error, Result};
-use wildpoint::manual;
-use wildpoint::memory;
-use wildpoint::report::Summary;
-use wildpoint::session::{Analysed, Session, open_all};
-use wildpoint::stop::Stop;
-use wildpoint::track::{DASH, LoadOptions, Source, Wanted, load, printable_lines, take_unfinished_away};
-use wildpoint::tui::config::{self, Config};
-use wildpoint::tui::files::is_session;
-use wildpoint::tui::journal::folder;
-use wildpoint::tui::plot::Glyphs;
-use wildpoint::tui::theme::{ColorDepth, Theme};
-use wildpoint::tui::{Ended, Look, Misread, Opening, run, still};
 
-fn main() -> ExitCode {
+/// Runs the program with its arguments, of which the first is its name, and gives its exit status.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     bear_the_limit_of_files();
-    let first = std::env::args_os().nth(1);
-    let mut cli = match Cli::try_parse() {
+    let args: Vec<OsString> = args.into_iter().collect();
+    let first = args.get(1).cloned();
+    let mut cli = match Cli::try_parse_from(args) {
         Ok(cli) => cli,
-        Err(help) if !help.use_stderr() => help.exit(),
+        Err(help) if !help.use_stderr() => {
+            let _ = help.print();
+            return 0;
+        }
         // Without its colours, since an argument (for example a file's name) is in it.
         Err(wrong) => {
             let mistyped = no_such_command(first.as_deref()).map(|error| format!("wildpoint: {error}\n"));
             let told = mistyped.unwrap_or_else(|| wrong.to_string());
             let _ = write!(std::io::stderr(), "{}", printable_lines(&told));
-            return ExitCode::from(2);
+            return 2;
         }
     };
     if let Some(bytes) = cli.memory {
@@ -66,21 +71,21 @@ fn main() -> ExitCode {
                 Ok(Ended { signal: Some(signal), words }) => {
                     let _ = writeln!(std::io::stderr(), "wildpoint: {}", printable_lines(&words));
                     // As shells have it for programs that a signal ended.
-                    return ExitCode::from(128 | u8::try_from(signal).unwrap_or(0));
+                    return 128 | u8::try_from(signal).unwrap_or(0);
                 }
                 other => other.map(|_| Ending::Done),
             }
         }
     };
     match ended {
-        Ok(Ending::Done) => ExitCode::SUCCESS,
-        Ok(Ending::Differs) => ExitCode::from(1),
-        Ok(Ending::Failed) => ExitCode::from(2),
+        Ok(Ending::Done) => 0,
+        Ok(Ending::Differs) => 1,
+        Ok(Ending::Failed) => 2,
         // A reader that has seen enough (`| head`) is no failure.
-        Err(Error::Io { source, .. }) if source.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(Error::Io { source, .. }) if source.kind() == std::io::ErrorKind::BrokenPipe => 0,
         Err(e) => {
             let _ = writeln!(std::io::stderr(), "wildpoint: {}", printable_lines(&e.to_string()));
-            ExitCode::from(2)
+            2
         }
     }
 }
@@ -123,7 +128,7 @@ fn workbench(cli: &Cli) -> Result<Ended> {
     if screen {
         let journal = if cli.no_journal { None } else { folder() };
         let look = Look { theme: theme(cli, &config), glyphs: glyphs(cli, &config) };
-        return run(opening, look, config, journal, misread);
+        return tui::run(opening, look, config, journal, misread);
     }
     let analysed = {
         let mut first = opening.session.clone();
