@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
+use wildpoint_kernel::Emit;
 
 /// Apply a session to the tracks of an Arrow IPC stream.
 ///
@@ -39,17 +40,6 @@ pub(crate) struct Args {
     /// Threads to use; an engine starts a kernel for each core.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub threads: usize,
-}
-
-/// What goes out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Emit {
-    /// The rows of the input with `CHANNEL_verdict` and `CHANNEL_clean`.
-    Samples,
-    /// A row for each sample that is not normal: the columns of `wildpoint clean --flags`.
-    Flags,
-    /// A row for each track and channel: counts and digest.
-    Summary,
 }
 
 /// Units of time.

@@ -13,8 +13,9 @@ use crate::layout::Layout;
 
 const SECOND: i64 = 1_000_000_000;
 
-/// What the stream was found to be.
-pub(crate) fn unreadable(e: ArrowError) -> Error {
+/// What Arrow says of columns that cannot be read.
+#[must_use]
+pub fn unreadable(e: ArrowError) -> Error {
     match e {
         ArrowError::IoError(_, source) => Error::Io { action: "read", path: "standard input".into(), source },
         other => Error::input("standard input", other.to_string(), "send an Arrow IPC stream, not a file"),
@@ -25,7 +26,7 @@ pub(crate) fn unreadable(e: ArrowError) -> Error {
 ///
 /// # Errors
 /// [`Error::Usage`] for a row without one.
-pub(crate) fn ids(column: &ArrayRef, name: &str) -> Result<StringArray> {
+pub fn ids(column: &ArrayRef, name: &str) -> Result<StringArray> {
     let texts = cast(column, &DataType::Utf8).map_err(unreadable)?;
     let texts = texts.as_string::<i32>().clone();
     if texts.null_count() > 0 {

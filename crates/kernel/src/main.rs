@@ -2,13 +2,8 @@
 //! distribute an archive over machines start one for each partition.
 
 mod args;
-mod columns;
-mod flags;
-mod layout;
 mod output;
 mod run;
-mod samples;
-mod summary;
 mod tracks;
 
 use std::io::{BufReader, Write as _};

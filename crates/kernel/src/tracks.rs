@@ -3,9 +3,8 @@
 use std::collections::HashSet;
 
 use arrow_array::RecordBatch;
+use wildpoint_kernel::ids;
 use wildpoint_record::error::{Error, Result};
-
-use crate::columns::ids;
 
 /// A track that is complete, in the pieces that it came in.
 #[derive(Debug)]

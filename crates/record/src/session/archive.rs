@@ -13,7 +13,7 @@ mod spill;
 
 pub use digest::{SUMMARY_COLUMNS, Summary, archive_digest};
 pub use folder::{Step, replay_folder};
-pub use judged::{Flag, Judged, Samples};
-pub use plans::{DecisionsFor, Named, Template};
+pub use judged::{Estimates, Flag, Judged, Samples};
+pub use plans::{DecisionsFor, Named, Prepare, Template};
 pub use recorded::{Archive, Recorded, recorded, with_archive};
 pub use rows::Rows;

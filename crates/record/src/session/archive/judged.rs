@@ -1,7 +1,7 @@
 //! A track that a session was applied to.
 
-use super::Rows;
 use super::digest::{Summary, digest_of};
+use super::{Prepare, Rows};
 use crate::error::Result;
 use crate::method::Verdict;
 use crate::session::flags::{Evidence, evidence};
@@ -32,6 +32,15 @@ pub struct Samples {
     pub clean: Vec<f64>,
 }
 
+/// What the method expected of the rows of a channel, in the order in which they were handed over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimates {
+    /// Expected values; NaN where there is none.
+    pub expected: Vec<f64>,
+    /// Largest deviations that are not flagged; NaN where there is none.
+    pub tolerance: Vec<f64>,
+}
+
 /// A sample that is not normal, or that somebody decided on.
 #[derive(Debug, Clone)]
 pub struct Flag {
@@ -48,9 +57,15 @@ pub struct Flag {
 }
 
 impl Judged {
-    pub(super) fn of(rows: Rows, session: Session, order: Option<Vec<u32>>, missing: &Reading) -> Result<Self> {
+    pub(super) fn of(
+        rows: Rows,
+        mut session: Session,
+        order: Option<Vec<u32>>,
+        (missing, prepare): (&Reading, &Prepare),
+    ) -> Result<Self> {
         let Rows { track: id, moments, channels, .. } = rows;
         let track = Track::of_columns("time", moments.clone(), channels, missing);
+        prepare.complete(&mut session, &track)?;
         let analysed = Analysed::of(&session, &track, &Stop::never())?;
         Ok(Self { id, track, session, analysed, moments, order })
     }
@@ -92,6 +107,28 @@ impl Judged {
             }
         }
         samples
+    }
+
+    /// What the method expected of the rows of a channel, in the order in which they were handed over.
+    #[must_use]
+    pub fn estimates(&self, channel: usize) -> Estimates {
+        let (index, present, outcome) = &self.analysed.channels[channel];
+        let series = present.series(&self.track.channels[*index], &self.track.time);
+        let mut estimates =
+            Estimates { expected: vec![f64::NAN; self.moments.len()], tolerance: vec![f64::NAN; self.moments.len()] };
+        let detection = &outcome.detection;
+        for (position, expected) in detection.judged.expected().iter().enumerate() {
+            let row = self.given(series.row(position));
+            estimates.expected[row] = detection.written(*expected);
+            estimates.tolerance[row] = detection.judged.tolerance(position).unwrap_or(f64::NAN);
+        }
+        estimates
+    }
+
+    /// Warnings about a channel, one line each.
+    #[must_use]
+    pub fn warnings(&self, channel: usize) -> Vec<String> {
+        self.analysed.channels[channel].2.warnings()
     }
 
     fn in_given_order(&self, samples: Samples) -> Samples {

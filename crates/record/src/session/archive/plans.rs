@@ -7,8 +7,8 @@ use super::{Judged, Rows};
 use crate::error::{Error, Result};
 use crate::review::Decisions;
 use crate::session::document::{Read, WrittenDecision, read_with_texts};
-use crate::session::{Plan, Session};
-use crate::track::{LoadOptions, Reading, unit_in_name};
+use crate::session::{Data, Plan, Session, Setup};
+use crate::track::{LoadOptions, Reading, Track, unit_in_name};
 
 /// What is done with the decisions of a session.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -29,6 +29,34 @@ pub struct Template {
     texts: Vec<Vec<WrittenDecision>>,
     decisions: DecisionsFor,
     columns: Named,
+    prepare: Prepare,
+}
+
+type Completes = dyn Fn(&mut Session, &Track) -> Result<()> + Send + Sync;
+
+/// Completes the plans of a track once its rows are known.
+pub struct Prepare(Box<Completes>);
+
+impl Prepare {
+    /// Calls `prepare` with the plans of each track and its rows.
+    pub fn with(prepare: impl Fn(&mut Session, &Track) -> Result<()> + Send + Sync + 'static) -> Self {
+        Self(Box::new(prepare))
+    }
+
+    /// The plans are complete.
+    fn nothing() -> Self {
+        Self::with(|_, _| Ok(()))
+    }
+
+    pub(super) fn complete(&self, session: &mut Session, track: &Track) -> Result<()> {
+        (self.0)(session, track)
+    }
+}
+
+impl std::fmt::Debug for Prepare {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Prepare")
+    }
 }
 
 /// What is said of the columns of the archive beside the session.
@@ -62,7 +90,21 @@ impl Template {
             let help = "--decisions=TRACK applies them where track, time and value are the same".to_owned();
             return Err(Error::Session { path: path.to_path_buf(), line, what, help });
         }
-        Ok(Self { path: path.to_path_buf(), session, texts, decisions, columns })
+        let prepare = Prepare::nothing();
+        Ok(Self { path: path.to_path_buf(), session, texts, decisions, columns, prepare })
+    }
+
+    /// The same setup for the columns `channels`, as a new session on each track has it.
+    #[must_use]
+    pub fn of_setup(setup: &Setup, channels: &[String], columns: Named, prepare: Prepare) -> Self {
+        let track = Track::of_columns("time", Vec::new(), Vec::new(), &Reading::new(false, &[]));
+        let plan = |name: &String| Plan::new(name.clone(), setup.clone(), Decisions::default());
+        // Without a column of time and tracks: `columns` names them.
+        let session = Session::new(&track, LoadOptions::default(), setup);
+        let data = Data { options: LoadOptions::default(), ..session.data };
+        let session = Session { plans: channels.iter().map(plan).collect(), data, ..session };
+        let texts = vec![Vec::new(); channels.len()];
+        Self { path: PathBuf::new(), session, texts, decisions: DecisionsFor::Nobody, columns, prepare }
     }
 
     /// The column of the time, if one is named.
@@ -143,7 +185,7 @@ impl Template {
         let options = &data.options;
         let missing = Reading::new(options.decimal_comma.unwrap_or(false), &options.missing);
         let session = Session { data, plans, value: self.session.value, result: None };
-        Judged::of(rows, session, order, &missing)
+        Judged::of(rows, session, order, (&missing, &self.prepare))
     }
 
     /// What is done with a column of a track.
