@@ -31,7 +31,9 @@ mod table;
 mod targets;
 
 pub use interrupted::end_tidily;
-pub use methods::{choices as choices_table, explained as methods_page, is_explained, markdown as methods_table};
+pub use methods::{
+    choices as choices_table, explained as methods_page, is_explained, json as methods_json, markdown as methods_table,
+};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

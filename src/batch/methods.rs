@@ -55,6 +55,14 @@ pub(super) fn run(id: Option<&str>, json: bool, as_markdown: bool, out: &mut dyn
     }
 }
 
+/// The methods with their parameters, as JSON.
+///
+/// # Errors
+/// None but those of the writer of JSON.
+pub fn json() -> serde_json::Result<String> {
+    serde_json::to_string(&METHODS.iter().map(|m| listed(*m)).collect::<Vec<_>>())
+}
+
 /// The page about a method or a check.
 ///
 /// # Errors

@@ -56,6 +56,18 @@ impl PrepareArgs {
         Ok(preparation)
     }
 
+    /// Whether every option is understood, whatever the channels are.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for an option that is not understood.
+    pub fn understood(&self) -> Result<()> {
+        parse_all(&self.check)?;
+        for text in &self.period {
+            parse_period(text.rsplit_once('=').map_or(text.as_str(), |(_, period)| period))?;
+        }
+        Ok(())
+    }
+
     /// Prepares every channel of `session`.
     ///
     /// # Errors
