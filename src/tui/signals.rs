@@ -11,6 +11,7 @@ use crate::track::{Source, printable};
 
 /// A signal, as far as it matters.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(unix), expect(dead_code, reason = "there are no signals"))]
 pub(super) enum Signalled {
     /// End, because of this signal.
     End(i32),

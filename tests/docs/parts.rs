@@ -42,9 +42,26 @@ pub(crate) fn all() -> Vec<(&'static str, Vec<Part>)> {
                 ("flags", schemes_table()),
             ],
         ),
+        ("archive.md", RECIPES.iter().map(|(marker, file)| (*marker, recipe(file))).collect()),
         ("choosing.md", vec![("advice", advice())]),
         ("methods.md", vec![("choices", wildpoint::batch::choices_table())]),
     ]
+}
+
+/// The recipes of the page on archives: marker and file.
+const RECIPES: [(&str, &str); 6] = [
+    ("dask", "dask_archive.py"),
+    ("spark", "spark_archive.py"),
+    ("spark-kernel", "spark_kernel.py"),
+    ("part", "archive_part.py"),
+    ("slurm", "slurm_archive.sh"),
+    ("parallel", "parallel_archive.sh"),
+];
+
+/// A file of `recipes/`, as a block of code.
+fn recipe(file: &str) -> String {
+    let language = if file.ends_with(".py") { "python" } else { "bash" };
+    format!("```{language}\n{}```\n", super::read(&super::root().join("recipes").join(file)))
 }
 
 /// A table of two columns or more, as Markdown has it.
